@@ -31,7 +31,8 @@ class AnyModel {
   using Vector = hapbeam::VectorOf<double, D>;
 
   template <typename Model>
-  AnyModel(Model model, const Parts& parts) : of_(std::make_unique<Of<Model>>(std::move(model), parts)) {}
+  AnyModel(std::unique_ptr<Model> model, const Parts& parts)
+      : of_(std::make_unique<Of<Model>>(std::move(model), parts)) {}
 
   hapbeam::Centreline<double, D> shape() const noexcept { return of_->shape(); }
   hapbeam::PeakStrain<double> peak_strain() const noexcept { return of_->peak_strain(); }
@@ -53,13 +54,13 @@ class AnyModel {
   template <typename Model>
   class Of final : public Any {
    public:
-    Of(Model model, const Parts& parts) : model_(std::move(model)), mesh_error_(parts) {}
+    Of(std::unique_ptr<Model> model, const Parts& parts) : model_(std::move(model)), mesh_error_(parts) {}
 
-    hapbeam::Centreline<double, D> shape() const noexcept override { return model_.shape(); }
-    hapbeam::PeakStrain<double> peak_strain() const noexcept override { return strain_of(model_); }
-    double force_error() noexcept override { return mesh_error_(model_); }
+    hapbeam::Centreline<double, D> shape() const noexcept override { return model_->shape(); }
+    hapbeam::PeakStrain<double> peak_strain() const noexcept override { return strain_of(*model_); }
+    double force_error() noexcept override { return mesh_error_(*model_); }
     void begin(double radius, const hapbeam::Friction& friction) override {
-      touched_.emplace(model_, radius, friction);
+      touched_.emplace(*model_, radius, friction);
     }
     void reset() noexcept override { touched_->touch.reset(); }
     hapbeam::CoupledForce<double, D> lead(Coupling& coupling, const Vector& hand,
@@ -74,7 +75,7 @@ class AnyModel {
       hapbeam::Touch<Model> touch;
     };
 
-    Model model_;
+    std::unique_ptr<Model> model_;
     MeshError<Model> mesh_error_;
     std::optional<Touched> touched_;
   };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "coupling.hpp"
@@ -21,19 +22,19 @@ class OneHand {
  public:
   using Model = M;
   using Servo = hapbeam::Servo<Model, Coupling>;
-  OneHand(Model model, const Parts& parts, const hapbeam::ServoOptions& options)
-      : model_(std::move(model)), servo_(model_, parts.device, options, Coupling(parts.options)) {}
+  OneHand(std::unique_ptr<Model> model, const Parts& parts, const hapbeam::ServoOptions& options)
+      : model_(std::move(model)), servo_(*model_, parts.device, options, Coupling(parts.options)) {}
 
   Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept { return servo_.tick(state); }
   void reset() noexcept { servo_.reset(); }
-  const Model& model() const noexcept { return model_; }
-  Model& model() noexcept { return model_; }
+  const Model& model() const noexcept { return *model_; }
+  Model& model() noexcept { return *model_; }
   Servo& servo() noexcept { return servo_; }
   const Servo& servo() const noexcept { return servo_; }
   const hapbeam::ServoRecord* second() const noexcept { return nullptr; }
 
  private:
-  Model model_;
+  std::unique_ptr<Model> model_;
   Servo servo_;
 };
 
@@ -51,13 +52,13 @@ class BothHands {
   using Model = M;
   using Servo = hapbeam::Servo<hapbeam::Hand<Model>, Coupling>;
 
-  BothHands(Model model, const Parts& parts, const hapbeam::ServoOptions& options)
+  BothHands(std::unique_ptr<Model> model, const Parts& parts, const hapbeam::ServoOptions& options)
       : model_(std::move(model)),
-        hands_(model_),
+        hands_(*model_),
         device_(Again{make_second_path(parts.options)}),
         first_(hands_[0], parts.device, options, Coupling(parts.options)),
         second_(hands_[1], device_.info(),
-                servo_options(parts.options, model_.shape(), second_place(parts.options))) {}
+                servo_options(parts.options, model_->shape(), second_place(parts.options))) {}
 
   Eigen::Vector3d tick(const hapbeam::DeviceState& state) noexcept {
     const Eigen::Vector3d force = first_.tick(state);
@@ -68,14 +69,14 @@ class BothHands {
     first_.reset(), second_.reset();
     device_.reset();
   }
-  const Model& model() const noexcept { return model_; }
-  Model& model() noexcept { return model_; }
+  const Model& model() const noexcept { return *model_; }
+  Model& model() noexcept { return *model_; }
   Servo& servo() noexcept { return first_; }
   const Servo& servo() const noexcept { return first_; }
   const hapbeam::ServoRecord* second() const noexcept { return &second_.record(); }
 
  private:
-  Model model_;
+  std::unique_ptr<Model> model_;
   hapbeam::TwoHands<Model> hands_;
   hapbeam::VirtualPhantom<Again> device_;  // of the second hand
   Servo first_, second_;
@@ -87,14 +88,14 @@ template <class Element>
 using Touchable = hapbeam::FemModel<hapbeam::Several<Element, 2>>;
 
 template <typename Model>
-Model make_model(const Parts& parts) {
-  return Model(std::get<typename Model::Body>(parts.slender), parts.options.elements);
+std::unique_ptr<Model> make_model(const Parts& parts) {
+  return std::make_unique<Model>(std::get<typename Model::Body>(parts.slender), parts.options.elements);
 }
 
 template <typename Model>
-std::unique_ptr<Body> couple_any(Model model, Parts parts) {
+std::unique_ptr<Body> couple_any(std::unique_ptr<Model> model, Parts parts) {
   constexpr bool asked = hapbeam::Drawn<Model>::for_who_looks;
-  AnyModel<hapbeam::dimension_of<Model>, asked> any(std::move(model), parts);
+  auto any = std::make_unique<AnyModel<hapbeam::dimension_of<Model>, asked>>(std::move(model), parts);
   return couple<OneHand>(std::move(any), std::move(parts));
 }
 

@@ -61,9 +61,9 @@ class Live final : public Body {
   static constexpr int dimension = hapbeam::dimension_of<Model>;
 
  public:
-  Live(Model model, Parts parts)
+  Live(std::unique_ptr<Model> model, Parts parts)
       : parts_(std::move(parts)),
-        rest_(rest_of(model)),
+        rest_(rest_of(*model)),
         servo_options_(servo_options(parts_.options, rest_.shape(), parts_.options.place)),
         loop_(std::move(model), parts_, servo_options_),
         heard_(loop_.model(), parts_.options),
@@ -147,7 +147,7 @@ class Live final : public Body {
 
 /// @tparam Loop  OneHand | BothHands
 template <template <typename> class Loop, typename Model>
-std::unique_ptr<Body> couple(Model model, Parts parts) {
+std::unique_ptr<Body> couple(std::unique_ptr<Model> model, Parts parts) {
   return std::make_unique<Live<Loop<Model>>>(std::move(model), std::move(parts));
 }
 

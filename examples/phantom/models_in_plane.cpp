@@ -49,7 +49,7 @@ std::unique_ptr<Body> couple_many(Parts parts) {
   std::vector<hapbeam::BeamPlace> places;
   for (int i = 0; i < options.beams; ++i) places.push_back({{0, -options.pitch * i}, 0, 0});
   using Tooth = Touchable<hapbeam::Corotational<>>;
-  hapbeam::BeamArray<Tooth> array(make_model<Tooth>(parts), places);
+  auto array = std::make_unique<hapbeam::BeamArray<Tooth>>(*make_model<Tooth>(parts), places);
   return couple<OneHand>(std::move(array), std::move(parts));
 }
 
@@ -57,7 +57,8 @@ std::unique_ptr<Body> couple_many(Parts parts) {
 std::unique_ptr<Body> couple_with_mass(Parts parts) {
   using namespace hapbeam;
   constexpr int parts_of_a_tick = 48;  // of 21 µs: they are heard
-  DynamicModel<> model(std::get<Beam>(parts.slender), parts.options.elements, parts_of_a_tick);
+  auto model = std::make_unique<DynamicModel<>>(std::get<Beam>(parts.slender), parts.options.elements,
+                                                parts_of_a_tick);
   return couple<OneHand>(std::move(model), std::move(parts));
 }
 
@@ -67,9 +68,10 @@ std::unique_ptr<Body> couple_trained(Parts parts) {
   return std::visit(
       [&](const auto& fast) {
         using Fast = std::decay_t<decltype(fast)>;
-        if (!parts.options.guarded) return couple_any(fast, std::move(parts));
+        if (!parts.options.guarded) return couple_any(std::make_unique<Fast>(fast), std::move(parts));
         parts.full_answers = std::make_unique<Count>(0);
-        Counted<Fast, Full> guarded(fast, make_model<Full>(parts), *parts.full_answers);
+        auto guarded = std::make_unique<Counted<Fast, Full>>(
+            fast, Full(std::get<hapbeam::Beam>(parts.slender), parts.options.elements), *parts.full_answers);
         return couple_any(std::move(guarded), std::move(parts));
       },
       trained->model);

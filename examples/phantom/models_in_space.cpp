@@ -44,8 +44,7 @@ std::unique_ptr<Body> couple_held(Parts parts) {
   } else {
     rods = {{o.beam.make_rod(coupling.support()), o.elements, {}}};
   }
-  HeldRod held(rods, vessel(o), coupling);
-  return couple<OneHand>(std::move(held), std::move(parts));
+  return couple<OneHand>(std::make_unique<HeldRod>(rods, vessel(o), coupling), std::move(parts));
 }
 
 #ifdef HAPBEAM_EXAMPLES_WINDOW

@@ -176,7 +176,7 @@ TEST_CASE("a support inside the span pushes and pulls", "[several]") {
 
 TEST_CASE("a bar between two pegs is free until it has closed the gap", "[several]") {
   const double radius = 0.01, reach = radius + 0.005, gap = 0.002;
-  Model<3> model(pinned_bar(), 16);
+  Model<4> model(pinned_bar(), 16);
   TouchSeveral touch(model, {radius},
                      {Prop<>::peg({0.6, reach + gap}, radius), Prop<>::peg({0.6, -reach - gap}, radius)});
   FemModel<Corotational<>> free(pinned_bar(), 16);
@@ -246,9 +246,9 @@ TEST_CASE("two hands and a peg gain no work on a closed path, and none pulls", "
   for (const bool ruler : {true, false}) {
     const Beam beam = ruler ? steel_ruler() : pinned_bar();
     const double L = beam.length(), radius = 0.02 * L, clear = radius + 0.01 * L;
-    Model<3> model(beam, 16);
+    Model<4> model(beam, 16);
     TouchSeveral touch(model, {radius, radius}, {Prop<>::peg({0.6 * L, -clear - 0.01 * L}, radius)});
-    Hands<TouchSeveral<Model<3>>> hands{touch, {{0.4 * L, clear}, {0.8 * L, clear}}};
+    Hands<TouchSeveral<Model<4>>> hands{touch, {{0.4 * L, clear}, {0.8 * L, clear}}};
     for (int way = 0; way < 12; ++way)
       hands.go({random(0.3, 0.5) * L, random(clear - 0.02 * L, clear)},
                {random(0.7, 0.9) * L, random(clear - 0.02 * L, clear)}, 120);

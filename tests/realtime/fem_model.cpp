@@ -24,8 +24,8 @@ using Turning = FemModel<Corotational<>, S, Elements, MaxElements>;
 using Models =
     std::tuple<FemModel<Linear, double>, FemModel<VonKarman<FullIntegration>, double>,
                FemModel<VonKarman<ReducedIntegration>, double>, FemModel<Corotational<Linear>, double>,
-               Default<double>, Default<float>, Default<double, 8>, Default<double, Eigen::Dynamic, 32>,
-               Turning<double>, Turning<float>, Turning<double, 8>, Turning<double, Eigen::Dynamic, 32>>;
+               Default<double>, Default<float>, Default<double, 16>, Default<double, Eigen::Dynamic, 32>,
+               Turning<double>, Turning<float>, Turning<double, 16>, Turning<double, Eigen::Dynamic, 32>>;
 
 // An exception cannot leave a noexcept function, and one that is caught inside shows on the heap: see guards_fire.cpp.
 template <typename Model>
@@ -107,7 +107,7 @@ TEMPLATE_LIST_TEST_CASE("FemModel: nothing that a servo may call touches the hea
   unsigned seed = 0;
   for (const auto& [name, beam] : beams) {
     INFO(name << ", " << TestType::ElementType::name());
-    TestType model(beam, 8);
+    TestType model(beam, 16);
     REQUIRE(model.rest().status == Status::ok);
     const auto path = requests(model.range(), model.shape().length(), ++seed);
     Answers answers;
@@ -118,11 +118,11 @@ TEMPLATE_LIST_TEST_CASE("FemModel: nothing that a servo may call touches the hea
 }
 
 TEMPLATE_TEST_CASE("FemModel of a bounded size: without dead loads it is built without the heap", "",
-                   (Default<double, 8>), (Default<double, Eigen::Dynamic, 32>), (FemModel<Linear, double, 8>),
-                   (Turning<double, 8>)) {
+                   (Default<double, 16>), (Default<double, Eigen::Dynamic, 32>),
+                   (FemModel<Linear, double, 16>), (Turning<double, 16>)) {
   const Beam beam = thesis_beam(Support::pinned, Support::pinned);
   CHECK(heap_use([&] {
-          TestType model(beam, 8);
+          TestType model(beam, 16);
           keep(model);
         }) == HeapUse{});
 }
@@ -130,7 +130,7 @@ TEMPLATE_TEST_CASE("FemModel of a bounded size: without dead loads it is built w
 TEST_CASE("FemModel of a bounded size: dead loads are the one thing that it keeps on the heap") {
   const Beam beam = loaded_beam(Support::pinned, Support::pinned);
   CHECK(heap_use([&] {
-          Default<double, 8> model(beam, 8);
+          Default<double, 16> model(beam, 16);
           keep(model);
         }).allocations > 0);
 }

@@ -94,8 +94,8 @@ TEST_CASE("two shafts and a bar across a rod are two circles and a peg on a beam
   const double d = 0.006, radius = 0.01, reach = radius + d / 2;
   const Beam bar(1, Section::circle(d), Material{200e9}, Support::clamped, Support::clamped);
   const Rod rod(1, RodSection::circle(d), spring_steel, RodSupport::clamped, RodSupport::clamped);
-  FemModel<Several<Corotational<>, 3>> in_plane(bar, 24);
-  FemModel<Several<RoundRod, 3>> in_space(rod, 24);
+  FemModel<Several<Corotational<>, 4>> in_plane(bar, 24);
+  FemModel<Several<RoundRod, 4>> in_space(rod, 24);
   TouchSeveral flat(in_plane, {radius, radius}, {Prop<>::peg({0.5, -reach - 0.001}, radius)});
   TouchSeveral round(in_space, {radius, radius},
                      {Prop<3>::bar({0.5, -reach - 0.001, -0.1}, {0.5, -reach - 0.001, 0.1}, radius)});

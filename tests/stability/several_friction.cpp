@@ -118,7 +118,7 @@ TEST_CASE("work of two hands round closed paths is what friction takes at both",
 // Nodes follow three contacts, whose parts of the ruler are short, and would pass from one part to another on this path: ∫ T · dslip then is 1.9e-4 off.
 TEST_CASE("two hands that press a ruler onto a rough peg give what friction takes with 16 elements",
           "[friction][several]") {
-  FemModel<Several<Corotational<>, 3>> model(steel_ruler(), 16);
+  FemModel<Several<Corotational<>, 4>> model(steel_ruler(), 16);
   const Friction friction[3] = {0.0756, 0.6833, 0.282};
   TouchSeveral touch(model, {finger(friction[0]), finger(friction[1])},
                      {Prop<>::peg({0.16245, -0.006984}, 0.005).rough(friction[2])});
@@ -163,14 +163,13 @@ TEST_CASE("two hands that press a ruler onto a rough peg give what friction take
 
 // Two hands and a peg, each with coefficients of its own; ways at the speed of a hand, jumps, and places that are none.
 TEST_CASE("friction at several contacts keeps its cones whatever the hands do", "[friction][several]") {
-  using Three = FemModel<Several<Corotational<>, 3>>;
   const Beam bar(1, Section::rectangle(0.02, 0.01), Material{200e9}, Support::pinned, Support::pinned);
   Random random(11);
   for (const bool ruler : {true, false}) {
     const Beam& beam = ruler ? steel_ruler() : bar;
     const double L = beam.length(), deep = ruler ? 0.1 : 0.02;
     const Friction friction[3] = {{0.8, 0.5}, 0.3, {1.2, 1.0}};
-    Three model(beam, 16);
+    FemModel<Several<Corotational<>, 4>> model(beam, 16);
     int rubbing = 0, unanswered = 0, ticks = 0;
     // Where a jump leads past the beam it is felt no more: they begin again above it.
     for (int begun = 0; begun < 30; ++begun) {

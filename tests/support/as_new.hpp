@@ -18,7 +18,7 @@ namespace hapbeam::testing::resets {
 inline constexpr double radius = 0.005, surface = radius + ruler_thickness / 2;
 
 using Ruler = FemModel<Several<Corotational<>, 4>>;
-using Wire = FemModel<Several<RoundRod, 3>>;
+using Wire = FemModel<Several<RoundRod, 4>>;
 
 inline Ruler make(const Ruler*) { return Ruler(steel_ruler(), 16); }
 inline Wire make(const Wire*) {

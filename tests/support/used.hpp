@@ -104,8 +104,8 @@ inline void used(const Beam& beam, const Rod& rod, const PodModelData<double>& p
   use_several<FemModel<Several<Corotational<>, 2>>>(beam);
   use_several<FemModel<Several<RoundRod, 2>>>(rod);
   use_several<FemModel<Several<TwistedRod, 2>>>(rod);
-  // Not compiled once: with them comes what these systems are made of.
-  use_several<FemModel<Several<Corotational<>, 3>>>(beam);
+  use_several<FemModel<Several<Corotational<>, 4>>>(beam);
+  // Not compiled once: with it comes what its system is made of.
   use_several<FemModel<Several<RoundRod, 4>>>(rod);
   use_reduced<PodModel<>>(pod);
   use_reduced<GalerkinModel<>>(galerkin);

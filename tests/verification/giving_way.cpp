@@ -121,7 +121,7 @@ TEST_CASE("what a contact takes as it gives way is what it takes of the same way
 // 1.5 degrees.
 TEST_CASE("a jump in which nodes follow their contacts takes what the beam loses", "[friction][several]") {
   for (const double step : {2e-6, 5e-7}) {
-    FemModel<Several<Corotational<>, 3>> model(steel_ruler(), 32);
+    FemModel<Several<Corotational<>, 4>> model(steel_ruler(), 32);
     TouchSeveral touch(model, {{0.005, 1, Friction(0.7, 0.5)}, {0.005, 1, Friction(0.5, 0.35)}},
                        {Prop<>::peg({0.157, -0.007}, 0.005).rough({0.3, 0.2})});
     const auto tick = [&](double above, double drawn) {
@@ -187,7 +187,7 @@ TEST_CASE("two contacts that give way by turns take what a closed path gives", "
 
 // As a hand gives way, so does the other one, which the beam then carries the other way.
 TEST_CASE("contacts that give way within one tick share what the beam loses", "[friction][several]") {
-  FemModel<Several<Corotational<>, 3>> model(steel_ruler(), 16);
+  FemModel<Several<Corotational<>, 4>> model(steel_ruler(), 16);
   TouchSeveral touch(model, {{0.005, 1, Friction(0.508, 0.3556)}, {0.005, 1, Friction(0.0532, 0.03724)}},
                      {Prop<>::peg({0.17291, -0.006266}, 0.005).rough({0.1037, 0.07259})});
   const auto path = [](double t, int hand) {
