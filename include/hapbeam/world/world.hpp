@@ -77,7 +77,18 @@ class World {
     return pair ? Vector(pair->force * pair->normal) : Vector::Zero();
   }
   int contacts() const noexcept { return system().pairs() - system().joints(); }
-  RodContact contact(int k) const noexcept;
+  RodContact contact(int k) const noexcept {
+    const detail::RodPair& pair = system().pair(system().joints() + k);
+    const Vector at = shape(pair.rod[0]).at(pair.s[0]).r;
+    const bool rigid = system().rigid(pair.rod[1]) != nullptr;
+    return {pair.rod,
+            pair.s,
+            pair.force * pair.normal + pair.friction.kept(),
+            pair.friction.kept(),
+            pair.friction.slid(),
+            {at, at - (rigid ? Vector(system().body(pair.rod[0]).radius() * pair.normal)
+                             : system().between(pair))}};
+  }
   /// Of all rods, the springs that hold them, what contacts bend beside nodes, and their skins [J].
   double strain_energy() const noexcept;
   /// What friction has taken since the start or reset() [J].
@@ -289,20 +300,6 @@ Status World<Element>::tick() noexcept {
   unmoved_ = outcome == Outcome::full ? 0 : unmoved_ + 1;
   if (unmoved_ == patience) restart();
   return status_ = outcome == Outcome::full ? Status::out_of_range : equilibrium_.failure();
-}
-
-template <class Element>
-RodContact World<Element>::contact(int k) const noexcept {
-  const detail::RodPair& pair = system().pair(system().joints() + k);
-  const Vector at = shape(pair.rod[0]).at(pair.s[0]).r;
-  const bool rigid = system().rigid(pair.rod[1]) != nullptr;
-  return {pair.rod,
-          pair.s,
-          pair.force * pair.normal + pair.friction.kept(),
-          pair.friction.kept(),
-          pair.friction.slid(),
-          {at, at - (rigid ? Vector(system().body(pair.rod[0]).radius() * pair.normal)
-                           : system().between(pair))}};
 }
 
 template <class Element>
