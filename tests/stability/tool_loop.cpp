@@ -1,6 +1,7 @@
 // A tool of a World in the hand, whatever it meets: the loop comes to rest and gives no energy.
 #include <cmath>
 
+#include "once_world.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/turning_scenes.hpp"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "body_scenes.hpp"
+#include "once_world.hpp"
 #include "support/catch.hpp"
 
 using namespace hapbeam;
