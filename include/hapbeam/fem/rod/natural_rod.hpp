@@ -29,10 +29,13 @@ class NaturalRod {
         rod, at, [this](double end, const VectorOf<double, 3>& omega, const RodNode<double>& from) {
           pieces_.push_back({static_cast<Scalar>(end), omega.template cast<Scalar>(), cast(from)});
         });
-    straight_ = rod.arcs().empty();
+    for (const RodArc& arc : rod.arcs())
+      if (kind_ != Kind::bent)
+        kind_ = arc.curvature1 != 0 || arc.curvature2 != 0 ? Kind::bent : Kind::twisted;
   }
 
-  bool straight() const noexcept { return straight_; }
+  bool straight() const noexcept { return kind_ == Kind::straight; }
+  bool bent() const noexcept { return kind_ == Kind::bent; }
 
   /// The node at s [m]: place, tangent and director.
   RodNode<Scalar> at(Scalar s) const noexcept {
@@ -76,6 +79,7 @@ class NaturalRod {
   }
 
  private:
+  enum class Kind { straight, twisted, bent };
   struct Piece {
     Scalar end;
     Vector3 omega;
@@ -93,7 +97,7 @@ class NaturalRod {
   }
 
   std::vector<Piece> pieces_;
-  bool straight_ = true;
+  Kind kind_ = Kind::straight;
 };
 
 }  // namespace hapbeam

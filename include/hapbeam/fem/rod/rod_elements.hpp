@@ -108,7 +108,7 @@ class RodElements {
   }
   /// Whether it is bent by nature and an element drawn so straight that forces may be off by 1 %, wherever they act.
   bool overdrawn() const noexcept {
-    for (int e = 0; e < size() && !natural_.straight(); ++e)
+    for (int e = 0; e < size() && natural_.bent(); ++e)
       if (overdrawn(e)) return true;
     return false;
   }
@@ -377,7 +377,7 @@ class RodElements {
       const auto strain = [&](int k) { return at.n[k] - 1 - p.natural_strain[k]; };
       tension = p.axial * (strain(0) + 4 * strain(1) + strain(2)) / 6;
     }
-    return tension * p.length * p.length * p.softest() > (natural_.straight() ? Scalar(4) : Scalar(0.4));
+    return tension * p.length * p.length * p.softest() > (natural_.bent() ? Scalar(0.4) : Scalar(4));
   }
   void make(int e) noexcept {
     const Scalar from = nodes_[e].s, to = nodes_[e + 1].s;
