@@ -7,6 +7,7 @@
 #include "knots.hpp"
 #include "once_world.hpp"
 #include "support/random.hpp"
+#include "support/sanitized.hpp"
 
 using namespace hapbeam;
 using namespace hapbeam::testing;
@@ -137,8 +138,8 @@ void shake(double step, double mu, int ticks, std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("no hands pull a knot through itself", "[world][friction]") {
-  shake(1e-3, 0.2, 1000, 1);
-  shake(3e-3, 0, 500, 2);
+  shake(1e-3, 0.2, trials(1000), 1);
+  shake(3e-3, 0, trials(500), 2);
 }
 TEST_CASE("no hands pull a knot through itself, for long", "[.][world][friction]") {
   shake(1e-4, 0.2, 50000, 3);
