@@ -9,6 +9,7 @@
 #include "support/catch.hpp"
 #include "support/error.hpp"
 #include "support/random.hpp"
+#include "support/sanitized.hpp"
 #include "support/solver.hpp"
 #include "support/status.hpp"
 #include "support/tense_press.hpp"
@@ -218,10 +219,10 @@ TensePress reference(const Beam& beam) {
 
 /// Of 40 presses over the beam.
 template <class Model>
-double worst_error(Model model, const Tense& tense) {
+double worst_error(Model model, const Tense& tense, int step = 1) {
   TensePress exact = reference(tense.beam);
   double worst = 0;
-  for (int k = 0; k < 40; ++k) {
+  for (int k = 0; k < 40; k += step) {
     const double s = tense.beam.length() * (0.06 + 0.88 * (k + 0.37) / 40);
     model.reset();
     const auto response = model.press(
@@ -236,10 +237,12 @@ double worst_error(Model model, const Tense& tense) {
 
 // What is left is the solver's tolerance, and in float some last places of place, depth and beam.
 TEST_CASE("a straight beam has no error of a mesh, whatever it is drawn with", "[taut][float]") {
+  constexpr int step = sanitized ? 8 : 1;
   for (const Tense& tense : tense_beams()) {
     CAPTURE(tense.name);
-    for (const int elements : {2, 8}) CHECK(worst_error(FemModel<>(tense.beam, elements), tense) <= 1e-9);
-    CHECK(worst_error(FemModel<VonKarman<>, float>(tense.beam, 8), tense) <=
+    for (const int elements : {2, 8})
+      CHECK(worst_error(FemModel<>(tense.beam, elements), tense, step) <= 1e-9);
+    CHECK(worst_error(FemModel<VonKarman<>, float>(tense.beam, 8), tense, step) <=
           32 * std::numeric_limits<float>::epsilon());
   }
 }
