@@ -14,16 +14,22 @@ using Clock = std::chrono::steady_clock;
 struct Timed {
   explicit Timed(const VirtualPhantom<>& p) noexcept : phantom(&p) {}
   const VirtualPhantom<>* phantom;
-  Clock::time_point first{}, last{};
+  Clock::time_point before = Clock::now(), first{}, last{};
   std::uint64_t calls = 0;
-  bool in_time_with_counts = true;
+  bool in_time_with_counts = true, never_early = true, none_lost = true;
   Eigen::Vector3d operator()(const DeviceState& state) noexcept {
-    last = Clock::now();
-    if (calls++ == 0) first = last;
+    const auto now = Clock::now();
+    if (calls++ == 0) first = last = now;
     // Simulated time is that of the deadlines, met and missed.
     const DeviceCounts counts = phantom->counts();
-    in_time_with_counts &=
-        static_cast<std::uint64_t>(std::llround(state.time / 1e-3)) == counts.ticks + counts.missed_ticks;
+    const std::uint64_t periods = counts.ticks + counts.missed_ticks;
+    in_time_with_counts &= static_cast<std::uint64_t>(std::llround(state.time / 1e-3)) == periods;
+    // They count from an instant between `before` and `first`. A tick comes after its deadline, and the last tick was
+    // over less than a period after it, or the deadline would have been missed.
+    const auto deadline = std::chrono::milliseconds(periods);
+    never_early &= now - before >= deadline;
+    none_lost &= last - first <= deadline + std::chrono::milliseconds(1);
+    last = Clock::now();
     return {0, std::max(0.0, -2000 * state.position.y()), 0};
   }
 };
@@ -38,8 +44,7 @@ TEST_CASE("ticks and missed ticks together are the periods that passed", "[phant
   CHECK_FALSE(phantom.running());
   phantom.start(servo);
   CHECK(phantom.running());
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  CHECK(phantom.counts().ticks > 0);
+  while (phantom.counts().ticks < 100) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   phantom.stop();
   CHECK_FALSE(phantom.running());
 
@@ -47,9 +52,8 @@ TEST_CASE("ticks and missed ticks together are the periods that passed", "[phant
   CHECK(counts.ticks == servo.calls);
   CHECK(counts.force_cut_ticks == 0);
   CHECK(servo.in_time_with_counts);
-  const double periods = std::chrono::duration<double>(servo.last - servo.first).count() / 1e-3;
-  // The first and the last tick may each be late; how much is the machine's affair.
-  CHECK(std::abs(static_cast<double>(counts.ticks + counts.missed_ticks) - periods) <= 50);
+  CHECK(servo.never_early);
+  CHECK(servo.none_lost);
 
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
   CHECK(servo.calls == counts.ticks);
