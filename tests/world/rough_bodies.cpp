@@ -193,7 +193,7 @@ TEST_CASE("what sticks to a body is held by as much as it holds", "[world][frict
     int stuck = 0;
     for (int k = 1; k <= 60; ++k) {
       const double t = 0.5 * k;
-      const Point at = scene.end + 1e-5 * Point(std::cos(t) - 1, 0.2 * std::sin(t), 0.2 * std::sin(t));
+      const Point at = scene.end + 2e-6 * Point(std::cos(t) - 1, 0.2 * std::sin(t), 0.2 * std::sin(t));
       REQUIRE(world.hold(0, RodSide::left, hand_at(at)) == Status::ok);
       if (world.tick() != Status::ok) continue;
       const Point force = world.held(0, RodSide::left).force;

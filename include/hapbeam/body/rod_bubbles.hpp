@@ -172,13 +172,9 @@ class RodBubbles : protected Stacked<S, Most> {
         turn_twice(count(), count(), half * soft * soft * own.by(1, 1));
       }
       for (int j = 0; j < i; ++j) {
-        using ByBoth = Jet<S, 3>;
         const S x = contacts_[at(i)]->s - a_->s, y = contacts_[at(j)]->s - a_->s;
         const int first = x <= y ? i : j, second = first == i ? j : i;
-        const ByBoth n = tension<ByBoth>(2), longer = stretch(n);
-        const ByBoth to = between_cuts(ByBoth(p_->length), ByBoth::variable((std::min)(x, y), 0),
-                                       ByBoth::variable((std::max)(x, y), 1), n * longer) *
-                          longer * longer;
+        const auto to = RodSpot<S>::between(*p_, inner_.tension.value, (std::min)(x, y), (std::max)(x, y));
         const Matrix both = between(first, second);
         put(C_, first, second, to.value * both), put(C_, second, first, to.value * both.transpose());
         bend(first, first, second, to.by(0) * both);
@@ -206,15 +202,6 @@ class RodBubbles : protected Stacked<S, Most> {
     Matrix sum = stiffer() * (i == j ? a.axes : Matrix(a.axes * b.axes));
     if (!even()) sum += std::abs(p_->soft[0] - p_->soft[1]) * a.soft_axis * b.soft_axis.transpose();
     return sum;
-  }
-  /// N/EI as a variable; none where N is no unknown.
-  template <class J>
-  J tension(int variable) const noexcept {
-    return p_->taut ? J::variable(inner_.tension.value * p_->softest(), variable) : J(0);
-  }
-  template <class J>
-  J stretch(const J& n) const noexcept {
-    return RodSpot<S>::stretch(*p_, n);
   }
   /// What is condensed: places, and N behind them.
   int ways() const noexcept { return count() + (p_->taut ? 1 : 0); }

@@ -33,6 +33,14 @@ struct RodSpot {
     return J(1) + 1 / (p.softest() * p.axial) * n;
   }
 
+  /// How two places of an element yield to each other, times EI: by both and by N/EI.
+  /// @param N  as of look()   @param x, y  from the left node, x <= y [m]
+  static Jet<S, 3> between(const RodProperties<S>& p, S N, S x, S y) noexcept {
+    using J = Jet<S, 3>;
+    const J n = p.taut ? J::variable(N * p.softest(), 2) : J(0), longer = stretch(p, n);
+    return between_cuts(J(p.length), J::variable(x, 0), J::variable(y, 1), n * longer) * longer * longer;
+  }
+
   /// Where r1, r1', r2 and r2' stand among so many unknowns a node.
   static constexpr int start(int unknowns, int q) noexcept { return q < 2 ? 3 * q : unknowns + 3 * (q - 2); }
   /// Takes off a moment that turns with the section.   @param of  of both nodes

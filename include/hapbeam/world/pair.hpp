@@ -71,6 +71,12 @@ struct RodPair {
   /// Whether friction acts.
   bool rough() const noexcept { return !fresh && friction.acts(); }
 
+  /// Whether a rod yields here to the other, too, where both touch one element.  In a row along a tube each is as if alone.
+  bool yields_to(const RodPair& other) const noexcept {
+    return &other != this && kind == Kind::contact && other.kind == Kind::contact &&
+           !(held[0] && other.held[0]);
+  }
+
   /// Two directions across the normal.
   void look() noexcept { axes[0] = normal, axes[1] = beside(normal), axes[2] = cross3(normal, axes[1]); }
   /// Of a hinge: two across its axis, along which there is nothing.

@@ -193,10 +193,8 @@ class PairEquilibrium {
       const RodPair& pair = system_.pair(k);
       if (!system_.moves(pair)) continue;
       const auto is_apart = [&](double distance) { return distance - pair.reach > apart * pair.reach; };
-      // Under compression the true curve bulges beyond the drawn one.
-      if (is_apart(pair.distance(system_.between(pair))) &&
-          (!system_.along_tube(pair) || is_apart(system_.distance(pair))))
-        return k;
+      // Under compression, and where others press, the true curve bulges beyond the drawn one.
+      if (is_apart(pair.distance(system_.between(pair))) && is_apart(system_.distance(pair))) return k;
       for (int j = system_.joints(); j < k; ++j)
         if (beside_each_other(system_, pair, system_.pair(j), 1, 0)) return k;
     }

@@ -9,6 +9,8 @@
 //
 // Sticks: T = k e while that is within the bound B = μλ.  Slides: T = B d, S = B/l (1 - d dᵀ).  T and e of the last answer say which, before each linear solve:
 // t + q (e - t/k) has the size B + q l and the direction d.  Any stiffness q leads to the same; one of the rods, as contacts feel it, does so soonest.
+// Two that stick on one stiff rod push each other above their bounds: of all that stuck only those begin to slide that are nearly as many times above as the one
+// that is most.
 // What sticks has the t of the last answer; what the law has it more is taken from δf in that.
 // H = R between rods, and large where a body is flat: H δn is how the rod goes over it.  H G is symmetric.
 // A body that has turned has taken all of the last equilibrium along.
@@ -81,6 +83,8 @@ class PairFriction {
       before_ = state_.known ? state_ : now_;
       felt_ = state_.force, most_ = state_.slides ? state_.sliding : state_.sticking;
     }
+    const bool stuck = mode_ == Mode::sticks;
+    exceeds_ = 0;
     if (mode_ = Mode::free; free) return acts_on_.setZero(), void();
     felt_ -= normal.dot(felt_) * normal;
     shear_ = now_.carried(state_.skin, before_) + now_.slip(before_, 1, reach_);
@@ -90,10 +94,9 @@ class PairFriction {
     const double size = std::sqrt(lent.squaredNorm()), felt = std::sqrt(felt_.squaredNorm());
     // What slid goes on as far.
     const bool goes_on = first && state_.slides && felt > 0;
-    if (!goes_on && !(size > (1 + more) * bound_)) {
-      mode_ = Mode::sticks, acts_on_ = felt_, lacks_on_ = stiffness_ * shear_ - felt_;
-      return void(off_ = more_shear.squaredNorm());
-    }
+    off_ = more_shear.squaredNorm();
+    if (!goes_on && !(size > (1 + more) * bound_)) return stick();
+    if (stuck && guess_.at_first == RubGuess::slips) exceeds_ = size / bound_;
     mode_ = Mode::slides;
     way_ = goes_on ? Vector(felt_ / felt) : Vector(lent / size);
     const double slip = goes_on ? state_.slip : (size - bound_) / lends;
@@ -101,6 +104,10 @@ class PairFriction {
     acts_on_ = bound_ * way_;
     off_ = (felt_ - acts_on_).squaredNorm();
   }
+  /// So many times its bound it is, where it stuck and begins to slide, and not all are taken to stick.
+  double exceeds() const noexcept { return exceeds_; }
+  /// It sticks in the next solve.
+  void stick() noexcept { mode_ = Mode::sticks, acts_on_ = felt_, lacks_on_ = stiffness_ * shear_ - felt_; }
   /// Whether it is more than a place that slides without friction.
   bool acts() const noexcept { return !none() && (mode_ == Mode::sticks || mode_ == Mode::slides); }
   /// T, on the first rod [N].  A skin that sticks is so stiff that its T says more of what increments have left than of the answer.
@@ -234,8 +241,8 @@ class PairFriction {
   RubGuess guess_{1, RubGuess::slips};
   Place before_, now_;
   double reach_ = 0, stiffness_ = 0, element_ = 0;  // [m], k, of an element [N/m]
-  double most_ = 0, bound_ = 0, aside_ = 0,
-         off_ = 0;  // μ, B [N], B/l [N/m], square of what T is off the law [N²]
+  double most_ = 0, bound_ = 0, aside_ = 0, off_ = 0,
+         exceeds_ = 0;  // μ, B [N], B/l [N/m], square of what T is off the law [N²]
   Matrix stiff_ = Matrix::Zero(), bends_ = stiff_, turns_ = stiff_;     // S, H and G
   Plane follows_ = Plane::Zero(), acts_ = follows_, lacks_ = follows_;  // m, t, and what the law has it more
   std::array<Plane, 2> along_{follows_, follows_};                      // t₁, -t₂

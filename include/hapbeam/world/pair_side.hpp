@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One side of a pair: what a contact within an element of a rod adds to that, to the pair's own equations, and as columns between both.
 //
-// The element lacks C of the curve at the place (rod_spot.hpp).  How much it lacks there by a force at another place in it is not counted.
+// The element lacks C of the curve at the place (rod_spot.hpp), and so it does there by a force at another place in it.
 // Real-time: noexcept, no allocation but at construction, O(1).
 #pragma once
 
@@ -70,17 +70,18 @@ class PairSide {
       for (int c = node(), last = c + 3; c < last; ++c) K(c, c) += sign * pair->lent;
     const bool rough = pair->rough();
     // Places are of its part along n.
-    const Vector along_n = sign * pair->force * pair->normal;
-    Vector F = along_n, T = Vector::Zero();
+    const Vector& along_n = along_n_ = sign * pair->force * pair->normal;
+    Vector &F = F_ = along_n, &T = T_ = Vector::Zero();
     if (rough) {
       T = sign * pair->friction.force(), F += T;
       drags.fill(0);
       b[4].setZero();
       pull(T, 1, b[4]);
     }
-    const Matrix yields = shape(p, n1, n2, own, spot);
+    section_ = section(p, n1, n2, own, spot, rough);
+    const bool even = is_even(p) && !rough;
+    const Matrix yields = shape(p, section_, section_);
     const Vector yield = yields * F, v = C * yield, rise = spot.g.by(0) * yield;
-    const bool even = unknowns < 7 || p.soft[0] == p.soft[1];
     pull(F, 0, r);
     double place = -along_n.dot(spot.t) - along_n.dot(rise) / 2;
     if (!even) {
@@ -123,30 +124,108 @@ class PairSide {
     return F.dot(v) / 2;
   }
 
+  /// What the forces of two sides in one element do at each other's places, after add() of both.   @return F₁ · C F₂ [J]
+  template <class Inner>
+  static double couple(const RodProperties<double>& p, const Inner& own, PairSide& a, PairSide& b,
+                       PairEquations& dense, Residual& r, TensionRow<Residual>& tension) noexcept {
+    if (a.spot_.x > b.spot_.x) return couple(p, own, b, a, dense, r, tension);
+    const Between C = between(p, own.tension.value, a.spot_.x * p.length, b.spot_.x * p.length);
+    a.yield_to(b, p, C, 0, dense, r), b.yield_to(a, p, C, 1, dense, r);
+    const Matrix yields = shape(p, a.section_, b.section_);
+    const auto enter = [&](int i, int j, double value) {
+      dense((std::max)(i, j), (std::min)(i, j)) -= value;
+    };
+    for (int c = 0; c < 3; ++c)
+      for (int d = 0; d < 3; ++d) enter(a.row + c, b.row + d, C.value * a.axis(c).dot(yields * b.axis(d)));
+    enter(a.unknown(3), b.unknown(3), C.by(0, 1) * a.along_n_.dot(yields * b.along_n_));
+    const double both = a.F_.dot(yields * b.F_), soft = p.softest();
+    tension.residual -= soft * C.by(2) * both, tension.stiff -= soft * soft * C.by(2, 2) * both;
+    return C.value * both;
+  }
+
   /// r, r' and r''.
   struct Point {
     Vector r, tangent, curvature;
   };
   /// Of the true curve of a rod under a force there.
   template <class Parts>
-  static Point point(const Parts& parts, int e, double s, const Vector& F) noexcept {
+  static Point point(const Parts& parts, int e, double s, const Vector& F, bool rough) noexcept {
     const RodProperties<double>& p = parts.properties(e);
     const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
     const auto own = parts.own(e);
     RodSpot<double> spot;
     spot.look(p, n1, n2, own.tension.value, s - n1.s);
-    const Matrix yields = shape(p, n1, n2, own, spot);
+    const Section section = PairSide::section(p, n1, n2, own, spot, rough);
+    const Matrix yields = shape(p, section, section);
     const Vector yield = yields * F;
     Vector t = spot.t + spot.g.by(0) / 2 * yield;
-    if (unknowns == 7 && p.soft[0] != p.soft[1]) t += turned_yield(yields, F, spot);
+    if (rough || !is_even(p)) t += turned_yield(yields, F, spot);
     return {spot.r + spot.g.value * yield, t, spot.k + spot.bend * yield};
+  }
+  /// What a force at another place of the element adds to that.
+  template <class Parts>
+  static void bend(Point& sum, const Parts& parts, int e, double s, double other, const Vector& F,
+                   const std::array<bool, 2>& rough) noexcept {
+    const RodProperties<double>& p = parts.properties(e);
+    const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
+    const auto own = parts.own(e);
+    Section section[2];
+    for (int k = 0; k < 2; ++k) {
+      RodSpot<double> spot;
+      spot.look(p, n1, n2, own.tension.value, (k == 0 ? s : other) - n1.s);
+      section[k] = PairSide::section(p, n1, n2, own, spot, rough[at(k)]);
+    }
+    const Between C = between(p, own.tension.value, (std::min)(s, other) - n1.s, (std::max)(s, other) - n1.s);
+    const int i = s <= other ? 0 : 1;
+    const Vector yield = shape(p, section[0], section[1]) * F;
+    sum.r += C.value * yield, sum.tangent += C.by(i) * yield, sum.curvature += C.by(i, i) * yield;
   }
 
  private:
+  using Between = Jet<double, 3>;  // by both places and N/EI
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+  Vector axis(int c) const noexcept { return side == 0 ? pair->axes[at(c)] : Vector(-pair->axes[at(c)]); }
+  /// How two places yield to each other, in units of shape().  Two that press at one place share what they press with as one that has a little of its own.
+  static Between between(const RodProperties<double>& p, double N, double x, double y) noexcept {
+    constexpr double own = 1e-6;
+    return (1 - own) * RodSpot<double>::between(p, N, x, y);
+  }
+  /// As couple(): what the other does here.   @param i  which place of C this is
+  void yield_to(PairSide& other, const RodProperties<double>& p, const Between& C, int i,
+                PairEquations& dense, Residual& r) noexcept {
+    const int here = unknown(3);
+    const bool rough = pair->rough();
+    const Matrix yields = shape(p, section_, other.section_);
+    const Vector yield = yields * other.F_, rise = C.by(i) * yield;
+    const double bend = C.by(i, i) * along_n_.dot(yield), soft = p.softest(), by_both = soft * C.by(2, i);
+    // What of it turns with the section.
+    const Vector turned = yield - RodSpot<double>::stiffer(p) * other.F_;
+    const double place = along_n_.dot(rise) + C.value * along_n_.dot(cross3<double>(turning(spot_), turned));
+    pair->pull[side] -= place, dense[here] += place, dense(here, here) -= bend;
+    for (int c = 0; c < 3; ++c) {
+      const Vector of = axis(c), there = yields * other.axis(c);
+      dense[row + c] += C.value * of.dot(yield);
+      if (c == 0 || !rough) dense(here, row + c) -= of.dot(rise);
+      const int its = other.row + c;
+      dense((std::max)(here, its), (std::min)(here, its)) -= C.by(i) * along_n_.dot(there);
+      if (rough) drags[at(its)] -= C.by(i) * T_.dot(there);
+      if (p.taut) by_N[at(c)] -= soft * C.by(2) * of.dot(yield);
+      spot_.turn(C.value * cross3<double>(turned, of), b[at(c)]);
+      spot_.turn(C.value * cross3<double>(there - RodSpot<double>::stiffer(p) * other.axis(c), F_),
+                 other.b[at(c)]);
+    }
+    if (rough) drags[at(other.unknown(3))] -= C.by(0, 1) * T_.dot(yields * other.along_n_);
+    if (p.taut) by_N[3] -= by_both * along_n_.dot(yield);
+    if (p.taut && rough) by_N[4] -= by_both * T_.dot(yield);
+    spot_.turn(C.value * cross3<double>(turned, F_), r);
+  }
+  /// Of the section along the rod.
+  static Vector turning(const RodSpot<double>& spot) noexcept {
+    return cross3(spot.u, spot.k) / spot.stretched;
+  }
   /// Half of how C F changes along the rod because the section turns with it.
   static Vector turned_yield(const Matrix& yields, const Vector& F, const RodSpot<double>& spot) noexcept {
-    const Vector turns = cross3(spot.u, spot.k) / spot.stretched;
+    const Vector turns = turning(spot);
     return spot.g.value / 2 * (cross3<double>(turns, yields * F) - yields * cross3(turns, F));
   }
   /// Where those of the node of a joint begin.
@@ -183,20 +262,35 @@ class PairSide {
     for (int q = 0; q < 4; ++q)
       of.template segment<3>(start(q)) -= (derivative == 0 ? spot_.h[q].value : spot_.h[q].by(0)) * force;
   }
-  /// What a unit of g yields by, along the axes of the section.
+  static bool is_even(const RodProperties<double>& p) noexcept {
+    return unknowns < 7 || p.soft[0] == p.soft[1];
+  }
+  /// The directions in which it yields.
+  struct Section {
+    Matrix axes;    // all, or those across r'
+    Vector softer;  // along which it yields more, where there is one
+  };
+  /// What pushes across the true curve, and so not quite across the cubic, moves it along itself; what rubs does not.
   template <class Node, class Inner>
-  static Matrix shape(const RodProperties<double>& p, const Node& n1, const Node& n2,
-                      [[maybe_unused]] const Inner& own,
-                      [[maybe_unused]] const RodSpot<double>& spot) noexcept {
-    Matrix shape = RodSpot<double>::stiffer(p) * Matrix::Identity();
+  static Section section(const RodProperties<double>& p, const Node& n1, const Node& n2,
+                         [[maybe_unused]] const Inner& own, const RodSpot<double>& spot,
+                         bool rough) noexcept {
+    Section section{Matrix::Identity(), Vector::Zero()};
+    if (rough) section.axes -= spot.u * spot.u.transpose();
     if constexpr (unknowns == 7)
-      if (p.soft[0] != p.soft[1]) {
-        const Vector softer = spot.template softer<typename Chain::Element>(p, n1, n2, own.twist.value);
-        shape += std::abs(p.soft[0] - p.soft[1]) * softer * softer.transpose();
-      }
+      if (!is_even(p))
+        section.softer = spot.template softer<typename Chain::Element>(p, n1, n2, own.twist.value);
+    return section;
+  }
+  /// How two places yield to each other, in units of g.
+  static Matrix shape(const RodProperties<double>& p, const Section& a, const Section& b) noexcept {
+    Matrix shape = RodSpot<double>::stiffer(p) * (a.axes * b.axes);
+    if (!is_even(p)) shape += std::abs(p.soft[0] - p.soft[1]) * a.softer * b.softer.transpose();
     return shape;
   }
 
+  Vector along_n_, T_, F_;  // λ n, T and their sum, on this rod
+  Section section_;
   RodSpot<double> spot_;
 };
 

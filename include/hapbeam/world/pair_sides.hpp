@@ -40,8 +40,14 @@ class PairSides {
 
   /// Of the true curve of a rod at s, where a force acts on it.
   template <class Parts>
-  static Point point(const Parts& parts, int e, double s, const Vector& force) noexcept {
-    return Side::point(parts, e, s, force);
+  static Point point(const Parts& parts, int e, double s, const Vector& force, bool rough) noexcept {
+    return Side::point(parts, e, s, force, rough);
+  }
+  /// As a force at another place of that element adds to it.
+  template <class Parts>
+  static void bend(Point& at, const Parts& parts, int e, double s, double other, const Vector& force,
+                   const std::array<bool, 2>& rough) noexcept {
+    Side::bend(at, parts, e, s, other, force, rough);
   }
 
   void clear() noexcept { size_ = 0, tensions_.clear(); }
@@ -78,7 +84,13 @@ class PairSides {
     const auto inner = parts.inner(e);
     TensionRow<Residual> tension{inner.tension.row, inner.tension.residual, inner.tension.stiffness};
     double energy = 0;
-    each_in(e, [&](Side& side) { energy += side.add(p, a, b, inner, *equations_, r, K, tension); });
+    each_in(e, [&](Side& side) {
+      energy += side.add(p, a, b, inner, *equations_, r, K, tension);
+      each_in(e, [&](Side& before) {
+        if (&before < &side && side.pair->yields_to(*before.pair))
+          energy += Side::couple(p, inner, before, side, *equations_, r, tension);
+      });
+    });
     if (p.taut) condense(e, p, a, b, inner.tension, tension, r, K);
     each_in(e, [](Side& side) { side.raw = side.b; });
     return energy;

@@ -137,23 +137,31 @@ class PairSystem : public WorldPairs<Element> {
     return pair.lent / 2 * (sum - pair.axis.dot(sum) * pair.axis);
   }
 
+  static bool rubs(const RodPair& pair) noexcept { return !pair.friction.none() && !pair.fresh; }
   /// Gives each pair its rows, and each rod its sides.
   void lay_out() noexcept {
     each([](Body& body) { body.sides.clear(); });
     rows_ = 0, own_negative_ = 0, rough_ = false;
-    each_pair([&](RodPair&, int) { rows_ += pair_unknowns; });
-    PairEquations& dense = *equations_;
-    dense.resize(rows_);
-    each_pair([&](RodPair& pair, int row) {
+    double exceeds = 0;
+    each_pair([&](RodPair& pair, int) {
+      rows_ += pair_unknowns;
       const PlacedBody* core = this->rigid(pair.rod[1]);
-      const bool joint = pair.kind != RodPair::Kind::contact, rubs = !pair.friction.none() && !pair.fresh;
+      const bool joint = pair.kind != RodPair::Kind::contact;
       if (core && !joint) {
-        if (core->moves && rubs && pair.friction.begins()) pair.carry([&](auto& v) { v = core->carried(v); });
+        if (core->moves && rubs(pair) && pair.friction.begins())
+          pair.carry([&](auto& v) { v = core->carried(v); });
         lead(*core, this->body(pair.rod[0]).line().at(pair.s[0]).r, pair);
       } else {
         pair.look();
       }
-      if (rubs) look(pair);
+      if (rubs(pair)) look(pair), exceeds = (std::max)(exceeds, pair.friction.exceeds());
+    });
+    PairEquations& dense = *equations_;
+    dense.resize(rows_);
+    each_pair([&](RodPair& pair, int row) {
+      const PlacedBody* core = this->rigid(pair.rod[1]);
+      const double times = rubs(pair) ? pair.friction.exceeds() : 0;
+      if (times > 0 && times < exceeds / 2) pair.friction.stick();
       VectorOf<double, 3> off = VectorOf<double, 3>::Zero();
       if (pair.kind == RodPair::Kind::rotation) off = -this->look_at_rotation(pair);
       else if (core) off = core->at(pair.s[1]);
@@ -161,7 +169,7 @@ class PairSystem : public WorldPairs<Element> {
       if (pair.rough()) {
         pair.friction.add(pair.axes, pair.bends, pair.force, row, dense);
         rough_ = true;
-      } else if (!pair.fresh && !joint) {
+      } else if (!pair.fresh && pair.kind == RodPair::Kind::contact) {
         for (int c = 1; c < 3; ++c)
           for (int d = 1; d <= c; ++d) dense(row + c, row + d) = pair.bends(c - 1, d - 1) / pair.force;
       }

@@ -58,7 +58,7 @@ class World {
   }
   /// Once a period.
   /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, where one bends an element by half of its reach or too sharply
-  ///         beside an end that is held, or another presses that from the other side, where a rod that has no tension of its own is drawn too taut for its
+  ///         beside an end that is held, where a rod that has no tension of its own is drawn too taut for its
   ///         elements, and where a held end would come into a body: then nothing has moved | iteration_limit, where the ends or a fall are on their way:
   ///         the next tick goes on | singular, also where something holds a joint open | non_finite.  No rod has passed another.  After 32 ticks that
   ///         have led nowhere all rods begin anew at rest.
@@ -81,14 +81,13 @@ class World {
   RodContact contact(int k) const noexcept {
     const detail::RodPair& pair = system().pair(system().joints() + k);
     const Vector at = shape(pair.rod[0]).at(pair.s[0]).r;
-    const bool rigid = system().rigid(pair.rod[1]) != nullptr;
+    const double apart = system().rigid(pair.rod[1]) ? system().body(pair.rod[0]).radius() : pair.reach;
     return {pair.rod,
             pair.s,
             pair.force * pair.normal + pair.friction.kept(),
             pair.friction.kept(),
             pair.friction.slid(),
-            {at, at - (rigid ? Vector(system().body(pair.rod[0]).radius() * pair.normal)
-                             : system().between(pair))}};
+            {at, at - apart * pair.normal}};
   }
   /// Of all rods, the springs that hold them, what contacts bend beside nodes, and their skins [J].
   double strain_energy() const noexcept;
@@ -310,7 +309,7 @@ double World<Element>::strain_energy() const noexcept {
     energy += body.system().strain_energy() + (body.motion ? body.motion->stored() : 0);
   for (int k = system().joints(); k < system().pairs(); ++k) {
     const detail::RodPair& pair = system().pair(k);
-    const Vector w = system().between(pair);
+    const Vector w = system().unbent(pair);
     energy += (pair.force * (pair.reach - pair.distance(w)) - pair.friction.kept().dot(w - pair.on)) / 2 +
               pair.friction.stored();
   }

@@ -66,7 +66,7 @@ class WorldPairs : public JointedRods<Element> {
       if (pair.kind == RodPair::Kind::rotation) return is;
       each_rod(pair, [&](std::size_t side) {
         is = is || this->body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal) ||
-             (pair.kind == RodPair::Kind::contact && (bent_beside_end(pair, side) || pinched(pair, side)));
+             (pair.kind == RodPair::Kind::contact && bent_beside_end(pair, side));
       });
       return is;
     });
@@ -99,12 +99,15 @@ class WorldPairs : public JointedRods<Element> {
     const PlacedBody* core = this->rigid(pair.rod[1]);
     return core && core->body().kind() == RigidBody::Kind::tube;
   }
+  /// As between(), of the curves as nodes and tensions hold them, which those that are drawn are not where a rod is taut.
+  auto unbent(const RodPair& pair) const noexcept {
+    return apart(pair, [&](std::size_t side) -> Vector {
+      return this->body(pair.rod[side]).point(pair.s[side], Vector::Zero(), false).r;
+    });
+  }
   /// Of the true curves along n, as RodPair::distance() [m].
   double distance(const RodPair& pair) const noexcept {
-    Vector w = Vector::Zero();
-    if (const PlacedBody* core = this->rigid(pair.rod[1])) w -= core->at(pair.s[1]);
-    each_rod(pair, [&](std::size_t side) { w += sign(side) * point(pair, side).r; });
-    return pair.distance(w);
+    return pair.distance(apart(pair, [&](std::size_t side) { return point(pair, side, along_n(pair)).r; }));
   }
   /// Whether they part to both sides of its first place, where the second follows: gap'' > 0.  To be called after a solution.
   bool parts(const RodPair& pair) const noexcept {
@@ -113,7 +116,7 @@ class WorldPairs : public JointedRods<Element> {
     std::array<double, 2> second{0, 1};
     std::array<Plane, 2> along{Plane::Zero(), Plane::Zero()}, turns = along;
     each_rod(pair, [&](std::size_t side) {
-      const auto touched = point(pair, side);
+      const auto touched = point(pair, side, along_n(pair));
       const Plane t(touched.tangent.dot(pair.axes[1]), touched.tangent.dot(pair.axes[2]));
       along[side] = t, turns[side] = Plane(H(1, 1) * t[0] - H(0, 1) * t[1], H(0, 0) * t[1] - H(1, 0) * t[0]) /
                                      (H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0));
@@ -179,19 +182,40 @@ class WorldPairs : public JointedRods<Element> {
   }
   /// Where friction acts, as all lies.
   void look(RodPair& pair) noexcept {
-    const Vector force = pair.force * pair.normal + pair.friction.force();
     // r' of the true curve of a rod.
     const auto tangent = [&](std::size_t side) -> Vector {
       if (this->rigid(pair.rod[side])) return Vector::Zero();
-      return this->body(pair.rod[side]).point(pair.s[side], sign(side) * force).tangent;
+      return point(pair, side, along_n(pair) + pair.friction.force()).tangent;
     };
     pair.friction.look(pair.normal, pair.on, pair.s, {tangent(0), tangent(1)}, pair.force);
   }
 
  private:
   static double sign(std::size_t side) noexcept { return side == 0 ? 1 : -1; }
-  auto point(const RodPair& pair, std::size_t side) const noexcept {
-    return this->body(pair.rod[side]).point(pair.s[side], sign(side) * pair.force * pair.normal);
+  /// @param place  (side) -> where that is
+  template <class Place>
+  Vector apart(const RodPair& pair, Place&& place) const noexcept {
+    Vector w = Vector::Zero();
+    if (const PlacedBody* core = this->rigid(pair.rod[1])) w -= core->at(pair.s[1]);
+    each_rod(pair, [&](std::size_t side) { w += sign(side) * place(side); });
+    return w;
+  }
+  static Vector along_n(const RodPair& pair) noexcept { return pair.force * pair.normal; }
+  /// Of the true curve.   @param force  on the first rod, which acts with those of all pairs in the element
+  auto point(const RodPair& pair, std::size_t side, const Vector& force) const noexcept {
+    const Body& body = this->body(pair.rod[side]);
+    auto sum = body.point(pair.s[side], sign(side) * force, pair.rough());
+    for (int k = this->joints(); k < number_; ++k) {
+      const RodPair& other = pairs_[at(k)];
+      if (pair.yields_to(other))
+        each_rod(other, [&](std::size_t i) {
+          if (other.rod[i] != pair.rod[side]) return;
+          Vector F = along_n(other);
+          if (other.rough()) F += other.friction.force();
+          body.bend(sum, pair.s[side], other.s[i], sign(i) * F, {pair.rough(), other.rough()});
+        });
+    }
+    return sum;
   }
   bool bent_beside_end(const RodPair& pair, std::size_t side) const noexcept {
     constexpr double most = 0.5;
@@ -204,19 +228,6 @@ class WorldPairs : public JointedRods<Element> {
     };
     return (e == 0 && beside(0, pair.s[side])) ||
            (e == system.elements() - 1 && beside(1, system.length() - pair.s[side]));
-  }
-  /// Whether another contact presses its element from the other side: each bends it as if it were alone.
-  bool pinched(const RodPair& pair, std::size_t side) const noexcept {
-    const auto line = this->body(pair.rod[side]).line();
-    const int e = line.segment_at(pair.s[side]);
-    for (int k = this->joints(); k < number_; ++k) {
-      const RodPair& other = this->pair(k);
-      for (std::size_t i = 0; i < 2; ++i)
-        if (other.rod[i] == pair.rod[side] && line.segment_at(other.s[i]) == e &&
-            sign(i) * sign(side) * other.normal.dot(pair.normal) < 0)
-          return true;
-    }
-    return false;
   }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);
