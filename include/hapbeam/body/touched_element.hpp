@@ -141,40 +141,38 @@ class TouchedElement : private PieceChain<Element, S, Most> {
             qL = ql + D.qN * cl, lL = ll + Nl * cl;
     const S pull = N_ + missing, gp = D.p + D.pN * missing, gq = D.q + D.qN * missing,
             gl = D.D + l * D.l - N_ * (1 + stretch) - p * D.p - q * D.q + Nl * missing;
-    // By place of B against A, and length: the columns are those of the chord, of its angle, and of the length alone.
-    const S turns = larger(N_, S(N_ + turning_ * missing)), swings = gp + gq;
-    std::array<std::array<S, 3>, 3> by;
-    S bow, leans = cp + cq, lengthens = pL + qL;
-    if constexpr (Turns) {
-      const S j = 1 / chord.length, x = chord.along.x(), y = chord.along.y();
-      by = {{{x, -y * j, 0}, {y, x * j, 0}, {0, 0, 1}}};
-      bow = turns * chord.length, leans -= swings * j;
-    } else {
+    const S swings = gp + gq, j = 1 / chord.length,
+            bow = larger(N_, S(N_ + turning_ * missing)) * chord.length,
+            leans = cp + cq - (Turns ? swings * j : S(0)), lengthens = pL + qL - (Turns ? S(0) : swings * j);
+    // Derivatives by chord, angle and length as those by place of B against A, and length.
+    using Three = std::array<S, 3>;
+    const auto by_place = [&chord, across = Vector(j * chord.along)](S c, S turn, S longer) {
+      const Vector& along = chord.along;
       const S alpha = chord.angle;
-      by = {{{1, 0, 0}, {alpha, i, 0}, {-alpha * alpha / 2, -alpha * i, 1}}};
-      bow = turns * l, lengthens -= swings * i;
-    }
+      return Turns ? Three{along.x() * c - across.y() * turn, along.y() * c + across.x() * turn, longer}
+                   : Three{c, alpha * c + across.x() * turn,
+                           longer - alpha * (alpha * c / 2 + across.x() * turn)};
+    };
     // Of chord, angle and length: the tangent, rotations of A and B, the gradient, and N.
     const S parts[3][7] = {{cc, leans, cl, cp, cq, pull, 1},
                            {leans, pp + 2 * pq + qq + bow, lengthens, pp + pq, pq + qq, swings, D.pN + D.qN},
                            {cl, lengthens, lL, pL, qL, gl, Nl}};
-    S there[7][3], K[3][3];
+    Three there[7], K[3];
+    HAPBEAM_UNROLL
+    for (int n = 0; n < 7; ++n) there[n] = by_place(parts[0][n], parts[1][n], parts[2][n]);
     HAPBEAM_UNROLL
     for (std::size_t m = 0; m < 3; ++m) {
+      const Three row = by_place(there[0][m], there[1][m], there[2][m]);
       HAPBEAM_UNROLL
-      for (int n = 0; n < 7; ++n)
-        there[n][m] = by[m][0] * parts[0][n] + by[m][1] * parts[1][n] + by[m][2] * parts[2][n];
-      HAPBEAM_UNROLL
-      for (std::size_t n = 0; n <= m; ++n)
-        K[m][n] = K[n][m] = there[0][m] * by[n][0] + there[1][m] * by[n][1] + there[2][m] * by[n][2];
+      for (std::size_t n = 0; n <= m; ++n) K[m][n] = K[n][m] = row[n];
     }
-    const S(&by_a)[3] = there[3], (&by_b)[3] = there[4], (&pulls)[3] = there[5], (&lacks)[3] = there[6];
+    const Three &by_a = there[3], &by_b = there[4], &pulls = there[5], &lacks = there[6];
     // A takes it off, and B adds it.
     const std::array<std::size_t, 3> of_a{0, 1, 3}, of_b{4, 5, 7};
-    for (int m = 0; m < 3; ++m) {
-      const std::size_t ma = of_a[of(m)], mb = of_b[of(m)];
-      for (int n = 0; n < 3; ++n) {
-        const std::size_t na = of_a[of(n)], nb = of_b[of(n)];
+    for (std::size_t m = 0; m < 3; ++m) {
+      const std::size_t ma = of_a[m], mb = of_b[m];
+      for (std::size_t n = 0; n < 3; ++n) {
+        const std::size_t na = of_a[n], nb = of_b[n];
         front_[ma][na] = front_[mb][nb] = K[m][n];
         front_[ma][nb] = front_[mb][na] = -K[m][n];
       }
