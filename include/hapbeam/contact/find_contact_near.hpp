@@ -68,16 +68,18 @@ NearestPoint<Scalar, D> nearest_of_touch(const Centreline<Scalar, D>& line, Scal
   Scalar d = (std::max)(std::sqrt(best.at.distance_squared) - reach / 2, Scalar(0));
   const int own = best.segment;
   const bool plain = line.straight(own);
-  for (const int step : {-1, 1})
-    for (int i = own + step; i >= 0 && i < line.segments(); i += step) {
-      // Where both it and the one beside it are as long as their chords, no other place of them is nearer than half as near.
-      const bool beside = i == own + step && plain && line.straight(i);
-      if (beside || line.excludes(i, q, d)) continue;
+  for (const int step : {-1, 1}) {
+    int i = own + step;
+    // Where both it and the one beside it are as long as their chords, no other place of them is nearer than half as near.
+    if (plain && i >= 0 && i < line.segments() && line.straight(i)) i += step;
+    for (; i >= 0 && i < line.segments(); i += step) {
+      if (line.excludes(i, q, d)) continue;
       const CubicSegment<Scalar, D> piece = line.segment(i);
       const ClosestPoint<Scalar, D> other = closest_point(piece, q);
       const Scalar its = std::sqrt(other.distance_squared);
       if (its < d) best.segment = i, best.at = other, best.piece = piece, d = its;
     }
+  }
   return best;
 }
 
