@@ -66,10 +66,13 @@ class BeamChain {
   // Nodes of ChainSystem's states.
 
   static void go_on(Nodes& now, Nodes& before, Scalar ratio) noexcept {
+    const auto on = [ratio](Scalar x, Scalar was) { return x + ratio * (x - was); };
     for (int i = 0; i < now.size(); ++i) {
+      // All four numbers side by side, which takes a third of the instructions: s goes on by nothing.
       Node &x = now[i], &b = before[i];
-      detail::extrapolate(x.u, b.u, ratio), detail::extrapolate(x.w, b.w, ratio),
-          detail::extrapolate(x.theta, b.theta, ratio);
+      const Scalar s = x.s, u = x.u, w = x.w, theta = x.theta;
+      x = {on(s, b.s), on(u, b.u), on(w, b.w), on(theta, b.theta)};
+      b = {s, u, w, theta};
     }
   }
   static void carry(const Node& x, Node& from, const Node& to) noexcept {
@@ -292,10 +295,11 @@ class BeamChain {
  private:
   Scalar move() noexcept {
     ends_.lead(parts_.nodes(), increments_);
-    increments_.for_each_node([this](int i, const Vector3<Scalar>& x) HAPBEAM_INLINED {
-      Node& node = parts_.nodes()[i];
-      node.u += x[0], node.w += x[1], node.theta += x[2];
-    });
+    increments_.for_each_node([nodes = parts_.nodes().data()](int i, const Vector3<Scalar>& x)
+                                  HAPBEAM_INLINED {
+                                    Node& node = nodes[i];
+                                    node.u += x[0], node.w += x[1], node.theta += x[2];
+                                  });
     ends_.correct(parts_.nodes());
     return parts_.follow(increments_);
   }

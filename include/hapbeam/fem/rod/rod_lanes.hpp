@@ -242,11 +242,13 @@ class ChainIncrements {
       for (int k = 0; k < Unknowns; ++k) x[k] = group.x[k][lane];
       f(node, x);
     };
-    for (int j = 0; j <= order_.pairs(); ++j) {
-      const Group& group = groups_[2 * j / lanes];
-      const int lane = 2 * j % lanes;
-      if (j >= order_.odd()) at(j - order_.odd(), group, lane);
-      if (j < order_.pairs()) at(order_.elements - j, group, lane + 1);
+    int j = 0;
+    for (const Group& group : groups_) {
+      HAPBEAM_UNROLL
+      for (int lane = 0; lane < lanes; lane += 2, ++j) {
+        if (j >= order_.odd() && j <= order_.pairs()) at(j - order_.odd(), group, lane);
+        if (j < order_.pairs()) at(order_.elements - j, group, lane + 1);
+      }
     }
   }
   /// Calls f(nodes, increments) for a few nodes at a time: which they are, and k -> of their unknown k.
