@@ -69,6 +69,13 @@ class RodBubbles : protected Stacked<S, Most> {
       for (int q = 1; q < 4; ++q) sum += this->h[q].value * by.template segment<3>(start(q));
       return sum;
     }
+    /// What a force there is on the nodes.
+    Column on_nodes(const Vector& force) const noexcept {
+      Column on;
+      for (int q = 0; q < 4; ++q) on.template segment<3>(start(q)) = this->h[q].value * force;
+      if constexpr (unknowns == 7) on[6] = on[13] = 0;
+      return on;
+    }
   };
   /// Where r1, r1', r2 and r2' stand among the unknowns.
   static constexpr int start(int q) noexcept { return RodSpot<S>::start(unknowns, q); }

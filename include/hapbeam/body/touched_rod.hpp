@@ -99,7 +99,6 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     const Stack He = times(H_, off_);
     for (int i = 0; i < n; ++i)
       energy += force_[at(i)] * (yield_[at(i)] / 2 + off_[at(i)]) + off_[at(i)] * He[at(i)] / 2;
-    r.setZero(), K.setZero();
     spread(He, H, r, K);
     condense_ways(r, K);
     return energy;
@@ -199,10 +198,24 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   void spread(const Stack& He, const Square& H, Column& r, Tangent& K) noexcept {
     const int n = size();
     const bool turns = turns_with_section();
+    if constexpr (unknowns == 7) K.col(6).setZero(), K.col(13).setZero();
     for (int k = 0; k < count(); ++k) {
       Spot& spot = spots_[at(k)];
       const Vector sum = vector(force_, k) + vector(He, k);
-      for (int q = 0; q < 4; ++q) r.template segment<3>(start(q)) -= spot.h[q].value * sum;
+      if (k == 0) r = -spot.on_nodes(sum);
+      else r -= spot.on_nodes(sum);
+      // Column by column, each whole.  The first one sets them, which takes less than to add to zeros.
+      for (int j = 0; j < count(); ++j) {
+        const Matrix stiff = block(H_, k, j);
+        for (int c = 0; c < 3; ++c) {
+          const Column on = spot.on_nodes(stiff.col(c));
+          for (int q = 0; q < 4; ++q) {
+            const Column by = spots_[at(j)].h[q].value * on;
+            if (k + j == 0) K.col(start(q) + c) = by;
+            else K.col(start(q) + c) += by;
+          }
+        }
+      }
       spot.turns.setZero();
       if (turns) {
         const Vector moment = cross3(vector(yield_, k), vector(force_, k));
@@ -218,13 +231,6 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
           K(6, 6) -= y * y * rise, K(13, 13) -= x * x * rise;
           K(6, 13) -= x * y * rise, K(13, 6) -= x * y * rise;
         }
-      for (int j = 0; j < count(); ++j) {
-        const Matrix stiff = block(H_, k, j);
-        const Spot& other = spots_[at(j)];
-        for (int q = 0; q < 4; ++q)
-          for (int o = 0; o < 4; ++o)
-            K.template block<3, 3>(start(q), start(o)) += (spot.h[q].value * other.h[o].value) * stiff;
-      }
     }
     std::array<Stack, std::size_t(Most)> normals;  // M n, M = I - H C
     for (int k = 0; k < count(); ++k) {
@@ -372,8 +378,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   }
   /// Adds -Nᵀf of all contacts.
   void pull(const Stack& f, Column& to) const noexcept {
-    for (int k = 0; k < count(); ++k)
-      for (int q = 0; q < 4; ++q) to.template segment<3>(start(q)) -= spots_[at(k)].h[q].value * vector(f, k);
+    for (int k = 0; k < count(); ++k) to -= spots_[at(k)].on_nodes(vector(f, k));
   }
 
   static void place(Stack& to, int k, const Vector& v) noexcept {
