@@ -71,7 +71,8 @@ class BlockTridiagonal {
     const int row = first / 2, count = (std::min)(abreast, pairs_ - row);
     const bool odd = odd_ && first == 0;
     if (first == 0) {
-      for (int k = 0; k < Rows::coupling; ++k) this->row(0).entry(k).set(Lanes(0));
+      const Row start = this->row(0);
+      for (int k = 0; k < Rows::coupling; ++k) start.entry(k).set(Lanes(0));
     }
     Rows* const rows = &rows_[row / abreast];
     if (count == abreast && !odd) Rows::template add<true>(rows, count, odd, K, r);
@@ -221,14 +222,18 @@ class BlockTridiagonal {
   /// bᵀK⁻¹ of the right-hand side.
   Scalar product(const Column& b) const noexcept {
     Scalar sum = 0;
-    for (int i = b.row; i <= pairs_; ++i)
-      for (int k = 0; k < Block; ++k) sum += b.way[i].whole[k] * row(i).x(k).a[i < pairs_ ? b.lane : 0];
+    for (int i = b.row; i <= pairs_; ++i) {
+      const Scalar* const x = row(i).x(0).a + (i < pairs_ ? b.lane : 0);
+      for (int k = 0; k < Block; ++k) sum += b.way[i].whole[k] * x[2 * abreast * k];
+    }
     return sum;
   }
   /// Adds so many times a column to the right-hand side.
   void add(const Column& b, Scalar times) noexcept {
-    for (int i = b.row; i <= pairs_; ++i)
-      for (int k = 0; k < Block; ++k) row(i).x(k).a[i < pairs_ ? b.lane : 0] += times * b.way[i].scaled[k];
+    for (int i = b.row; i <= pairs_; ++i) {
+      Scalar* const x = row(i).x(0).a + (i < pairs_ ? b.lane : 0);
+      for (int k = 0; k < Block; ++k) x[2 * abreast * k] += times * b.way[i].scaled[k];
+    }
   }
   /// From L⁻¹ of the right-hand side to the increments.
   void substitute() noexcept {
@@ -264,10 +269,10 @@ class BlockTridiagonal {
  private:
   /// Both chains share the middle node, which stands in lane 0.
   void join_middle() noexcept {
+    const Row middle = row(pairs_);
     for (int k = 0; k < Rows::coupling; ++k) {
-      Number& entry = row(pairs_).entry(k);
-      const Lanes both = entry.get();
-      entry.set(detail::lanes<Scalar>(both[0] + both[1], 0));
+      const Lanes both = middle.entry(k).get();
+      middle.entry(k).set(detail::lanes<Scalar>(both[0] + both[1], 0));
     }
   }
 
@@ -325,8 +330,9 @@ template <typename Scalar, int Elements, int MaxElements, int Block>
 Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::factor() noexcept {
   detail::Pivots<Scalar> pivots;
   Lanes front[triangle_size], f[Block], energy = Lanes(0);  // with the sign turned
-  for (int k = 0; k < triangle_size; ++k) front[k] = row(0).entry(k).get();
-  for (int k = 0; k < Block; ++k) f[k] = row(0).x(k).get();
+  const Row start = row(0);
+  for (int k = 0; k < triangle_size; ++k) front[k] = start.entry(k).get();
+  for (int k = 0; k < Block; ++k) f[k] = start.x(k).get();
   for (int i = 0; i < pairs_; ++i) Row::eliminate(row(i), row(i + 1), front, f, energy, pivots);
   Row::join(row(pairs_), front, f, energy, pivots);
   energy_ = -(energy[0] + energy[1]);
