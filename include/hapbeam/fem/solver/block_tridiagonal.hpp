@@ -260,6 +260,7 @@ class BlockTridiagonal {
   void increments(int first, Scalar (&x)[Block][Lanes]) const noexcept {
     static_assert(Lanes == 2 * abreast, "as many nodes as rows of both chains");
     const auto& rows = rows_[first / static_cast<int>(Lanes)];
+    HAPBEAM_UNROLL
     for (int k = 0; k < Block; ++k) std::memcpy(x[k], rows.entry[Rows::x + k], sizeof x[k]);
   }
 
