@@ -72,6 +72,7 @@ class BlockTridiagonal {
     const bool odd = odd_ && first == 0;
     if (first == 0) {
       const Row start = this->row(0);
+      HAPBEAM_UNROLL
       for (int k = 0; k < Rows::coupling; ++k) start.entry(k).set(Lanes(0));
     }
     Rows* const rows = &rows_[row / abreast];
@@ -271,6 +272,7 @@ class BlockTridiagonal {
   /// Both chains share the middle node, which stands in lane 0.
   void join_middle() noexcept {
     const Row middle = row(pairs_);
+    HAPBEAM_UNROLL
     for (int k = 0; k < Rows::coupling; ++k) {
       const Lanes both = middle.entry(k).get();
       middle.entry(k).set(detail::lanes<Scalar>(both[0] + both[1], 0));
