@@ -45,10 +45,10 @@ NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vecto
 template <typename Scalar, int D, class Query>
 NearestPoint<Scalar, D> nearest_downhill(const Centreline<Scalar, D>& line, int piece,
                                          const Query& q) noexcept {
-  NearestPoint<Scalar, D> best;
   // A contact is a node, and one of the two pieces that meet there leads to q.
   if (piece > 0 && line.ahead(piece, q) < 0) --piece;
-  best.look(piece, line.segment(piece), q);
+  const CubicSegment<Scalar, D> its = line.segment(piece);
+  NearestPoint<Scalar, D> best{piece, closest_point(its, q), its};
   const int way = best.at.t <= 0 ? -1 : best.at.t >= 1 ? 1 : 0;
   for (int next = piece + way; way != 0 && next >= 0 && next < line.segments(); next += way) {
     if (!best.look(next, line.segment(next), q)) break;
@@ -64,11 +64,10 @@ template <typename Scalar, int D, class Query>
 NearestPoint<Scalar, D> nearest_of_touch(const Centreline<Scalar, D>& line, Scalar s, const Query& q,
                                          Scalar reach) noexcept {
   NearestPoint<Scalar, D> best = nearest_downhill(line, line.segment_at(s), q);
-  if (best.segment < 0) return best;
   Scalar d = (std::max)(std::sqrt(best.at.distance_squared) - reach / 2, Scalar(0));
   const int own = best.segment;
   const bool plain = line.straight(own);
-  for (const int step : {-1, 1}) {
+  for (int step = -1; step <= 1; step += 2) {
     int i = own + step;
     // Where both it and the one beside it are as long as their chords, no other place of them is nearer than half as near.
     if (plain && i >= 0 && i < line.segments() && line.straight(i)) i += step;
