@@ -322,7 +322,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
           A[7][last] -= gs;
 
     const auto eliminate = [&](auto number) {
-      constexpr std::size_t u = decltype(number)::value;
+      constexpr std::size_t u = number;
       const Row row_u = record.rows[u] = A[u];
       const S over = 1 / row_u[u];
       HAPBEAM_UNROLL
@@ -341,9 +341,7 @@ class TouchedElement : private PieceChain<Element, S, Most> {
       change_ -= by / 2;
       if (u < 3) longer_ += std::abs(by);
     };
-    eliminate(std::integral_constant<std::size_t, 0>());
-    eliminate(std::integral_constant<std::size_t, 1>());
-    eliminate(std::integral_constant<std::size_t, 2>());
+    for_each_constant<0, 3>(eliminate);
     record.moves = record.waits = false;
     if constexpr (Turns) {
       // A force of the pieces along the beam, which exact ones would not have, is not to be taken for that of the contact, nor what is out of balance for what
@@ -365,21 +363,14 @@ class TouchedElement : private PieceChain<Element, S, Most> {
                         std::abs(contact.force / (contact.gap + contact.reach));
         if (std::abs(A[3][3]) < least) A[3][3] = std::copysign(least, A[3][3]);
         if (A[3][3] * contact.force > 0) turned_ += contact.force > 0 ? 1 : -1;
-        eliminate(std::integral_constant<std::size_t, 3>());
+        eliminate(constant<3>);
       }
     }
-    const auto give = [&](std::size_t i, std::size_t row_a, std::size_t j, std::size_t column_a) {
-      front_[i][j] = front_[j][i] = A[row_a][column_a];
-    };
-    for (std::size_t i = 0; i < ends; ++i) {
-      for (std::size_t j = i; j < ends; ++j) {
-        give(from_tip + i, own + i, from_tip + j, own + j);
-        give(from_other + i, made + i, from_other + j, made + j);
-      }
-      for (std::size_t j = 0; j < ends; ++j) give(from_tip + i, own + i, from_other + j, made + j);
-      for (std::size_t c = 0; c <= Most; ++c)
-        front_[from_tip + i][both + c] = A[own + i][all + c],
-                                    front_[from_other + i][both + c] = A[made + i][all + c];
+    const auto place = [&](std::size_t i) { return i < made ? from_tip + i - own : from_other + i - made; };
+    HAPBEAM_UNROLL
+    for (std::size_t i = own; i < all; ++i) {
+      for (std::size_t j = i; j < all; ++j) front_[place(i)][place(j)] = front_[place(j)][place(i)] = A[i][j];
+      for (std::size_t c = 0; c <= Most; ++c) front_[place(i)][both + c] = A[i][all + c];
     }
   }
 

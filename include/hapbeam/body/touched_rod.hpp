@@ -198,12 +198,12 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   void spread(const Stack& He, const Square& H, Column& r, Tangent& K) noexcept {
     const int n = size();
     const bool turns = turns_with_section();
+    Stack forces = He;
+    for (int i = 0; i < n; ++i) forces[at(i)] += force_[at(i)];
+    r = -on_nodes(forces);
     if constexpr (unknowns == 7) K.col(6).setZero(), K.col(13).setZero();
     for (int k = 0; k < count(); ++k) {
       Spot& spot = spots_[at(k)];
-      const Vector sum = vector(force_, k) + vector(He, k);
-      if (k == 0) r = -spot.on_nodes(sum);
-      else r -= spot.on_nodes(sum);
       // Column by column, each whole.  The first one sets them, which takes less than to add to zeros.
       for (int j = 0; j < count(); ++j) {
         const Matrix stiff = block(H_, k, j);
@@ -237,9 +237,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       Spot& spot = spots_[at(k)];
       const Contact& contact = *contacts_[at(k)];
       normals[at(k)] = lessened(k, contact.normal);
-      Column& column = columns_[at(k)];
-      column.setZero();
-      pull(normals[at(k)], column);
+      Column& column = columns_[at(k)] = -on_nodes(normals[at(k)]);
       // The moment with which C turns grows with the force.
       if (turns) {
         const Vector rises = cross3<S>(block(C_, k, k) * contact.normal, vector(force_, k)) +
@@ -278,9 +276,8 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       way.residual = is_place ? -spots_[at(i)].turns.dot(spots_[at(i)].k) : inner_.tension.residual;
       for (int c = 0; c < n; ++c)
         way.residual += steep[at(c)] * off_[at(c)] - force_[at(c)] * bends[at(c)] / 2;
-      if (is_place) way.by_nodes.setZero();
-      else way.by_nodes = inner_.tension.row;
-      pull(steep, way.by_nodes);
+      way.by_nodes = -on_nodes(steep);
+      if (!is_place) way.by_nodes += inner_.tension.row;
       for (int k = 0; k < count(); ++k) {
         if (is_place && k != i) continue;
         const Spot& spot = spots_[at(k)];
@@ -376,9 +373,11 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       }
     }
   }
-  /// Adds -Nᵀf of all contacts.
-  void pull(const Stack& f, Column& to) const noexcept {
-    for (int k = 0; k < count(); ++k) to -= spots_[at(k)].on_nodes(vector(f, k));
+  /// Nᵀf of all contacts.
+  Column on_nodes(const Stack& f) const noexcept {
+    Column sum = spots_[0].on_nodes(vector(f, 0));
+    for (int k = 1; k < count(); ++k) sum += spots_[at(k)].on_nodes(vector(f, k));
+    return sum;
   }
 
   static void place(Stack& to, int k, const Vector& v) noexcept {

@@ -295,11 +295,10 @@ class BeamChain {
  private:
   Scalar move() noexcept {
     ends_.lead(parts_.nodes(), increments_);
-    increments_.for_each_node([nodes = parts_.nodes().data()](int i, const Vector3<Scalar>& x)
-                                  HAPBEAM_INLINED {
-                                    Node& node = nodes[i];
-                                    node.u += x[0], node.w += x[1], node.theta += x[2];
-                                  });
+    increments_.for_each_node([this](int i, const Vector3<Scalar>& x) HAPBEAM_INLINED {
+      Node& node = parts_.nodes()[i];
+      node.u += x[0], node.w += x[1], node.theta += x[2];
+    });
     ends_.correct(parts_.nodes());
     return parts_.follow(increments_);
   }

@@ -40,13 +40,6 @@ struct ChainEnergies {
   Scalar measured;  ///< what increments are measured by
 };
 
-/// Extrapolates the last step, times a ratio.   @param before  in: the value before that step, out: the present one
-template <typename Scalar>
-void extrapolate(Scalar& now, Scalar& before, Scalar ratio) noexcept {
-  const Scalar was = now;
-  now += ratio * (now - before);
-  before = was;
-}
 /// Calls f(e) for each element that is touched.
 template <class Rows, class F>
 void each_touched(const Rows& rows, F&& f) noexcept {
@@ -188,7 +181,10 @@ class ChainSystem {
   /// Extrapolates from a state before, times a ratio.   @param before  out: the present state
   void go_on(State& before, Scalar ratio) noexcept {
     Chain::go_on(nodes(), before.nodes, ratio);
-    each_inner([&](int e) { detail::extrapolate(inners()[e], before.inner[e], ratio); });
+    each_inner([&](int e) {
+      const Scalar now = inners()[e];
+      inners()[e] += ratio * (now - std::exchange(before.inner[e], now));
+    });
   }
   /// Extrapolates by the step between two states.  @param from  out: the present state less the step from there to `to`
   void carry(State& from, const State& to) const noexcept {

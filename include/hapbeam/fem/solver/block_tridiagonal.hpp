@@ -223,10 +223,8 @@ class BlockTridiagonal {
   /// bᵀK⁻¹ of the right-hand side.
   Scalar product(const Column& b) const noexcept {
     Scalar sum = 0;
-    for (int i = b.row; i <= pairs_; ++i) {
-      const Scalar* const x = row(i).x(0).a + (i < pairs_ ? b.lane : 0);
-      for (int k = 0; k < Block; ++k) sum += b.way[i].whole[k] * x[2 * abreast * k];
-    }
+    for (int i = b.row; i <= pairs_; ++i)
+      for (int k = 0; k < Block; ++k) sum += b.way[i].whole[k] * row(i).x(k).a[i < pairs_ ? b.lane : 0];
     return sum;
   }
   /// Adds so many times a column to the right-hand side.
@@ -333,9 +331,8 @@ template <typename Scalar, int Elements, int MaxElements, int Block>
 Status BlockTridiagonal<Scalar, Elements, MaxElements, Block>::factor() noexcept {
   detail::Pivots<Scalar> pivots;
   Lanes front[triangle_size], f[Block], energy = Lanes(0);  // with the sign turned
-  const Row start = row(0);
-  for (int k = 0; k < triangle_size; ++k) front[k] = start.entry(k).get();
-  for (int k = 0; k < Block; ++k) f[k] = start.x(k).get();
+  for (int k = 0; k < triangle_size; ++k) front[k] = row(0).entry(k).get();
+  for (int k = 0; k < Block; ++k) f[k] = row(0).x(k).get();
   for (int i = 0; i < pairs_; ++i) Row::eliminate(row(i), row(i + 1), front, f, energy, pivots);
   Row::join(row(pairs_), front, f, energy, pivots);
   energy_ = -(energy[0] + energy[1]);
