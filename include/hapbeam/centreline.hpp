@@ -99,7 +99,8 @@ template <typename Scalar, int D = 2>
 using CubicSegment = Eigen::Matrix<Scalar, D, 4>;
 /// Control point k of it [m].
 template <typename Scalar, int D>
-VectorOf<Scalar, D> control_point(const Eigen::Matrix<Scalar, D, 4>& b, int k) noexcept {
+[[gnu::always_inline]] inline VectorOf<Scalar, D> control_point(const Eigen::Matrix<Scalar, D, 4>& b,
+                                                                int k) noexcept {
   return detail::vector_of<Scalar, D>([&](int i) { return b(i, k); });
 }
 
@@ -298,7 +299,7 @@ struct CentrelinePart {
 template <typename Scalar>
 CentrelinePart<Scalar> part_of(const Centreline<Scalar>& whole, Scalar s0, Scalar s1) noexcept {
   int first = whole.segment_at(s0);
-  const int last = whole.segment_at(s1) + 1;
+  const int last = (s1 == s0 ? first : whole.segment_at(s1)) + 1;
   if (first > 0 && whole[first].s >= s0) --first;
   return {{whole.begin() + first, last - first + 1, whole.any_rotation()}, first, whole.segments()};
 }

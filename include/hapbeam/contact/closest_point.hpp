@@ -40,7 +40,8 @@ VectorOf<Scalar, D> point_at(const CubicSegment<Scalar, D>& b, Scalar t) noexcep
 
 /// Derivative dC/dt of a piece [m], for its direction: where it vanishes, the chord's.
 template <typename Scalar, int D>
-VectorOf<Scalar, D> tangent(const CubicSegment<Scalar, D>& b, Scalar t) noexcept {
+[[gnu::always_inline]] inline VectorOf<Scalar, D> tangent(const CubicSegment<Scalar, D>& b,
+                                                          Scalar t) noexcept {
   const Scalar r = 1 - t;
   VectorOf<Scalar, D> velocity = 3 * (r * r * (control_point(b, 1) - control_point(b, 0)) +
                                       2 * r * t * (control_point(b, 2) - control_point(b, 1)) +
