@@ -71,35 +71,27 @@ struct NodeRows {
   template <int Count, class Nodes>
   [[gnu::always_inline]] static void gather(const Abreast<Scalar, Size>& which, const Nodes& nodes,
                                             Wide (&column)[numbers]) noexcept {
+    const Scalar* rows[Size];
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]);
     for (int at = 0; at < (std::min)(Count, whole); at += Size) {
-      const Scalar* rows[Size];
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]) + at;
       Rows::load(rows, column + at);
+      for (const Scalar*& row : rows) row += Size;
     }
-    if constexpr (Count > whole) {
-      const Scalar* rows[Size];
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]) + whole;
-      Rows::load_two(rows, column[whole], column[whole + 1]);
-    }
+    if constexpr (Count > whole) Rows::load_two(rows, column[whole], column[whole + 1]);
   }
   /// Writes them.
   template <class Nodes>
   [[gnu::always_inline]] static void scatter(const Abreast<Scalar, Size>& which,
                                              const Wide (&column)[numbers], Nodes& nodes) noexcept {
+    Scalar* rows[Size];
+    HAPBEAM_UNROLL
+    for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]);
     for (int at = 0; at < whole; at += Size) {
-      Scalar* rows[Size];
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]) + at;
       Rows::store(column + at, rows);
+      for (Scalar*& row : rows) row += Size;
     }
-    if constexpr (numbers > whole) {
-      Scalar* rows[Size];
-      HAPBEAM_UNROLL
-      for (int k = 0; k < Size; ++k) rows[k] = numbers_of(nodes[which.of[k]]) + whole;
-      Rows::store_two(column[whole], column[whole + 1], rows);
-    }
+    if constexpr (numbers > whole) Rows::store_two(column[whole], column[whole + 1], rows);
   }
 };
 
