@@ -39,11 +39,6 @@ class Stacked {
       for (int c = 0; c < 3; ++c) m(r, c) = of[at(3 * i + r)][at(3 * j + c)];
     return m;
   }
-  template <class F>
-  void blocks(Square& to, F&& f) const noexcept {
-    for (int i = 0; i < count(); ++i)
-      for (int j = 0; j < count(); ++j) put(to, i, j, i == j ? f(i) : Matrix(Matrix::Zero()));
-  }
   Square product(const Square& a, const Square& b) const noexcept {
     // Row by row: where the sum of one number is innermost, g++ 12 at -O3 loads rows as aligned that are not.
     Square c;

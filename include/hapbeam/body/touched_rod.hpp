@@ -31,9 +31,9 @@ namespace hapbeam::detail {
 template <class Element, typename S, int Most>
 class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base = RodBubbles<Element, S, Most>;
-  using Base::at, Base::block, Base::blocks, Base::C_, Base::contacts_, Base::count, Base::even, Base::fill,
-      Base::force_, Base::ids_, Base::inner_, Base::inverse, Base::J_, Base::most_ways, Base::p_,
-      Base::parallel, Base::product, Base::seen_, Base::size, Base::spots_, Base::start, Base::times,
+  using Base::at, Base::block, Base::C_, Base::contacts_, Base::count, Base::even, Base::fill, Base::force_,
+      Base::ids_, Base::inner_, Base::inverse, Base::J_, Base::most_ways, Base::p_, Base::parallel,
+      Base::product, Base::put, Base::seen_, Base::size, Base::spots_, Base::start, Base::times,
       Base::turned_twice_, Base::unknowns, Base::vector, Base::ways, Base::yield_, typename Base::Column,
       typename Base::Contact, typename Base::Matrix, typename Base::Spot, typename Base::Square,
       typename Base::Stack, typename Base::Vector;
@@ -82,11 +82,9 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     fill();
     const int n = size();
     // H of each, (I + C H)⁻¹, and what comes of them.
-    Square H;
-    blocks(H, [&](int k) {
-      const Contact& contact = *contacts_[at(k)];
-      return Matrix(contact.friction_tangent - contact.force * spots_[at(k)].curved);
-    });
+    Square H{};
+    for (int k = 0; k < count(); ++k)
+      put(H, k, k, contacts_[at(k)]->friction_tangent - contacts_[at(k)]->force * spots_[at(k)].curved);
     Square CH = product(C_, H);
     for (int i = 0; i < n; ++i) CH[at(i)][at(i)] += 1;
     A_ = inverse(CH);
