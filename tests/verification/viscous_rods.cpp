@@ -1,6 +1,7 @@
 // Viscous rods in space: relaxation in bending, twist and stretch, creep, decrement, and energy, against closed forms.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <vector>
 
 #include "once_world.hpp"
@@ -55,6 +56,13 @@ double stiffness(Way way, const Rod& rod) {
          : way == Way::across1 ? 12 * k.bending2 / (L * L * L)
          : way == Way::across2 ? 12 * k.bending1 / (L * L * L)
                                : k.torsion / L;
+}
+
+/// A clamp that is turned about the rod's axis.
+RodPose rolled(double angle) { return {{0, 0, 0}, {1, 0, 0}, {0, std::cos(angle), std::sin(angle)}}; }
+double off_axis(const Model& model) {
+  const Place at = model.shape().at(0.2).r;
+  return std::hypot(at.y(), at.z());
 }
 
 }  // namespace
@@ -187,6 +195,84 @@ TEST_CASE("a viscous rod that is bent by nature and let go from afar never has m
     CAPTURE(dt, energy / begin);
     CHECK(energy < 0.05 * begin);
     CHECK(energy > 0);
+  }
+}
+
+// In the material the bend turns.  By the complex modulus at Ω = 2π rate,
+//   E*/E = 1 + iΩτ + g iΩτ1/(1 + iΩτ1),
+// the tip is w E/E* from the axis, ahead of its load F, and the clamp twists the rod by F times its way aside.
+TEST_CASE("a hand that rolls a bent viscous rod twists it, though nothing holds its other end",
+          "[dynamics]") {
+  const double rate = 2, g = 0.5, tau1 = 0.05, tau = 0.01, omega = 2 * pi * rate, L = 0.2, w = 2e-4;
+  RodMaterial material = nylon();
+  material.damping.branches[0] = {g, tau1};
+  material.damping.viscosity = tau;
+  Rod rod = cantilever(material, false);
+  const double force = 3 * rod.stiffness().bending1 * w / (L * L * L);
+  rod.add(RodForce{L, {0, 0, -force}});
+  using Complex = std::complex<double>;
+  const Complex i(0, 1), tip = w / (1.0 + i * omega * tau + g * i * omega * tau1 / (1.0 + i * omega * tau1));
+  constexpr int parts = 400;
+  Model model(rod, 8, 1);
+  // After two turns what it had from its start is gone, as exp(-t/τ1).
+  for (int k = 1; k <= 2 * parts; ++k) {
+    REQUIRE(model.hold(RodSide::left, rolled(2 * pi * k / parts)) == Status::ok);
+    REQUIRE(model.step(1 / (rate * parts)) == Status::ok);
+  }
+  const Place at = model.shape().at(L).r;
+  const double twists = model.reaction(RodSide::left).moment.x();
+  CAPTURE(at.y() / w, at.z() / w, tip / w, twists / (force * w));
+  // (w/L)² of the bend, and 0.04 (Ω dt)² of the steps.
+  CHECK(std::abs(Complex(-at.z(), -at.y()) - tip) <= 2e-5 * w);
+  CHECK(std::abs(twists + force * tip.imag()) <= 2e-5 * force * w);
+}
+
+// One mode q = y + iz of a shaft that turns:  q" + 2ζω (q' - iΩq) + ω² q = 0.  It whirls as e^(λt), with the torque of what its angular momentum gains.
+TEST_CASE("a viscous rod whirls where it is rolled faster than it vibrates, by the work of its hand",
+          "[dynamics]") {
+  const double beta = 1.8751040687119611, ratio = 0.05, L = 0.2;
+  const Rod elastic = cantilever(nylon(1100), false);
+  const double omega =
+      beta * beta / (L * L) * std::sqrt(elastic.stiffness().bending1 / elastic.mass_per_length(0));
+  RodMaterial material = nylon(1100);
+  material.damping = Damping::ratio(ratio, omega / (2 * pi));
+  using Complex = std::complex<double>;
+  struct Case {
+    double faster, size;  // of which the spin hides no motion, and none is large
+  };
+  for (const auto& [faster, size] : {Case{0.5, 1e-3}, {3, 1e-6}}) {
+    const double turns = faster * omega, dt = 2 * pi / omega / 400;
+    const Complex half(ratio * omega, 0),
+        lambda = -half + std::sqrt(half * half - omega * omega + 2.0 * half * Complex(0, turns));
+    const Rod rod = cantilever(material, false);
+    Rod pulled = rod;
+    pulled.add(RodForce{L, {0, size * 3 * rod.stiffness().bending1 / (L * L * L), 0}});
+    Model model(rod, 8, 1);
+    // Thrown round the axis, as it whirls; what else it does dies first.
+    const FemModel<TwistedRod> bent(pulled, 8);
+    const auto shape = bent.shape();
+    model.let_go_from(shape, [&](double s) {
+      const auto at = shape.at(s);
+      VectorOf<double, 6> v = VectorOf<double, 6>::Zero();
+      v[2] = omega * at.r.y(), v[5] = omega * at.tangent.y();
+      return v;
+    });
+    double work = 0, moment = 0, energy = 0, aside = 0;
+    const int begin = 2400, end = 3600;
+    for (int k = 1; k <= end; ++k) {
+      REQUIRE(model.hold(RodSide::left, rolled(turns * dt * k)) == Status::ok);
+      REQUIRE(model.step(dt) == Status::ok);
+      const double now = model.reaction(RodSide::left).moment.x();
+      work += turns * dt * (now + moment) / 2, moment = now;
+      if (k == begin) work = 0, energy = model.energy().sum(), aside = off_axis(model);
+    }
+    const double t = (end - begin) * dt, grows = std::log(off_axis(model) / aside) / t,
+                 gained = model.energy().sum() - energy,
+                 share = 2 * turns * lambda.imag() / (std::norm(lambda) + omega * omega);
+    CAPTURE(faster, grows, lambda, off_axis(model), gained, work, work / gained / share - 1,
+            grows / lambda.real() - 1);
+    CHECK(grows == Approx(lambda.real()).epsilon(1e-3));
+    CHECK(work == Approx(share * gained).epsilon(1e-3));
   }
 }
 

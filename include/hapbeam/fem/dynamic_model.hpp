@@ -238,8 +238,10 @@ Status DynamicModel<Element, ScalarType, Elements, MaxElements>::go(Scalar dt, c
   if (stood) contacts_.begin(system_, nullptr, 0), (void)start(part, 1, detail::most_halvings);
   contacts_.begin(system_, hands, count);
   motion_.ends.begin(all);
-  // Without mass it takes its load at once, and creeps on.
-  bool found = !starts_ || (go_on(part / 1000000, 0, 0) && (motion_.stop(system_), start(part, 0, 0)));
+  // Without mass it takes its load at once, unless a damper holds it, and creeps on.
+  bool found = true;
+  if (starts_ && motion_.viscosity()->leaps(part)) found = go_on(part / 1000000, 0, 0), motion_.stop(system_);
+  if (starts_) found = found && start(part, 0, 0);
   int parts = 0;
   const auto go_far = [&] {
     for (; parts < substeps_ && found; parts += found) {

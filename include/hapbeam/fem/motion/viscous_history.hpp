@@ -34,6 +34,8 @@ class ViscousHistory {
   }
 
   bool none() const noexcept { return size_ == 0; }
+  /// Whether a load bends it at once, as a part of a step sees it: no damper takes a thousandth of that [s].
+  bool leaps(S part) const noexcept { return viscosity_ < part / 1000; }
   /// Its rates are zero from here on.
   void stop() noexcept {
     for (int e = 0; e < size_; ++e) now_[e].rate.setZero();
