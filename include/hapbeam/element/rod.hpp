@@ -9,7 +9,7 @@
 //   κ² = B/A - C²/A²
 //
 // Unknowns are places and tangents, which are added: no large rotation, and the tangent matrix is symmetric everywhere.
-// A bent round rod whose ends do not hold its twist has none; so this is exact for what TwistedRod solves with one more
+// A bent round rod that is elastic and whose ends do not hold its twist has none; so this is exact for what TwistedRod solves with one more
 // unknown a node.  Right while a tangent turns by less than half a turn from one end of an element to the other.
 // Real-time: no allocation, noexcept, O(1).
 #pragma once

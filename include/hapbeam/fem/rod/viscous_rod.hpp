@@ -4,7 +4,10 @@
 //   E (ε - ε0) + E κ (ε - ε°) = E (1 + κ) (ε - (ε0 + κ ε°)/(1 + κ))      ε0: natural
 //
 // Strains are curvatures and twist at both Gauss points of an element, and stretch at its ends and middle (viscous_history.hpp).  They are TwistedRod's:
-// RoundRod has no frame in which a rod could be bent by nature.
+// where a bend turns in its section the moment is not along the curvature, and twists a rod that nothing else does (docs/decisions/viscous_rods.md):
+//
+//   T' = M·t'      t: tangent
+//
 // Allocates and throws at construction.  Real-time: all else is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -30,7 +33,8 @@ class ViscousRod : public ViscousHistory<S, 9, Elements, MaxElements> {
   ViscousRod(const Rod& rod, int elements, const Parts& parts)
       : History(rod.damping(), elements), elastic_(elements), viscous_(elements) {
     if (!this->none() && Element::unknowns != 7)
-      throw std::invalid_argument("rod damping: RoundRod is elastic; take TwistedRod");
+      throw std::invalid_argument(
+          "rod damping: a viscous rod twists where its bend turns, and RoundRod does not; take TwistedRod");
     for (int e = 0; e < elements; ++e) viscous_[e] = elastic_[e] = parts.properties(e);
   }
 
