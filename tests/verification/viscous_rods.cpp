@@ -271,6 +271,7 @@ TEST_CASE("a viscous rod whirls where it is rolled faster than it vibrates, by t
                  share = 2 * turns * lambda.imag() / (std::norm(lambda) + omega * omega);
     CAPTURE(faster, grows, lambda, off_axis(model), gained, work, work / gained / share - 1,
             grows / lambda.real() - 1);
+    // 4 (ω dt)²
     CHECK(grows == Approx(lambda.real()).epsilon(1e-3));
     CHECK(work == Approx(share * gained).epsilon(1e-3));
   }
