@@ -65,9 +65,9 @@ class AllDisplacements {
     return drawn(pushes_.push(*this, all, count, range));
   }
 
-  /// Whether the element at s is too long for its tension, pressed along a normal.  @param s  [m]
-  bool overdrawn(Scalar s, const VectorOf<Scalar, dimension>& normal) const noexcept {
-    return system_.overdrawn(s, normal);
+  /// Whether the mesh is too coarse for a force at s.   @param s  [m]   @param force  [N]
+  bool too_coarse(Scalar s, const VectorOf<Scalar, dimension>& force) const noexcept {
+    return system_.too_coarse(s, force);
   }
 
   /// Moves a clamped end of a rod, without a contact.
@@ -76,8 +76,7 @@ class AllDisplacements {
     const auto k = static_cast<std::size_t>(side);
     const auto take = [&] {
       HeldEnd<Scalar> held = system_.reaction(k);
-      held.status =
-          report_.status == Status::ok && system_.parts().overdrawn() ? Status::out_of_range : report_.status;
+      if (report_.status != Status::ok) held.status = report_.status;
       return held;
     };
     report_ = {Status::invalid_request, 0, 0, 0, 0, report_.step};

@@ -79,7 +79,7 @@ class DynamicModel {
     const Status status = go(dt, hands, count);
     for (int i = 0; i < count && i < contacts; ++i) {
       pushed[i] = contacts_.pushed(system_, i);
-      if (pushed[i].force != 0 && system_.overdrawn(pushed[i].s, pushed[i].normal))
+      if (pushed[i].force != 0 && system_.too_coarse(pushed[i].s, pushed[i].force * pushed[i].normal))
         pushed[i].status = Status::out_of_range;
       if (status != Status::ok) pushed[i].status = status;
     }
@@ -106,7 +106,7 @@ class DynamicModel {
     return valid ? Status::ok : Status::invalid_request;
   }
   /// Of what holds an end on the body, inertia and viscosity taken into account: in the plane along x and w [N], and moment [N·m]; in space a
-  /// HeldEnd, with moment about the end.   @param side  0 | RodSide::left, 1 | RodSide::right
+  /// HeldEnd, with moment about the end, ok | out_of_range as of FemModel::hold().   @param side  0 | RodSide::left, 1 | RodSide::right
   template <class Side>
   auto reaction(Side side) const noexcept {
     return system_.reaction(static_cast<std::size_t>(side), starts_ ? nullptr : motion_.inertia(),

@@ -95,7 +95,8 @@ class FemModel {
   /// not touch; none pulls.  Several<Element, Contacts> takes so many, any other element one.
   /// @param obstacles  in and out: count of them
   /// @return ok | snapped | iteration_limit | singular | non_finite; each obstacle has a status of its own, too.  out_of_range: nearer to a support
-  ///         than range() says, or a rod without a tension of its own is drawn so taut that its error may exceed 1 %.
+  ///         than range() says, or where the error may exceed 1 %: a rod without a tension of its own is drawn too taut, or bent too sharply beside a
+  ///         held end.
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Status push(Obstacle<Scalar, dimension>* obstacles, int count) noexcept;
 
@@ -104,7 +105,8 @@ class FemModel {
   }
 
   /// Moves and turns a clamped end of a rod, or the springs of an end.
-  /// @return force and moment that this takes, and ok | snapped | invalid_request | iteration_limit | singular | non_finite
+  /// @return force and moment that this takes, and ok | out_of_range: bent or turned too sharply for its tension and elements | snapped | invalid_request |
+  ///         iteration_limit | singular | non_finite
   template <class InSpace = Of>
   HeldEnd<Scalar> hold(typename InSpace::Side side, const typename InSpace::Pose& pose) noexcept;
 
@@ -163,10 +165,10 @@ class FemModel {
     return f(*std::get_if<General>(&ways));
   }
 
-  /// Of an answer at s: out_of_range where the mesh is too coarse for the tension there.
+  /// Of an answer at s: out_of_range where the mesh is too coarse for the tension or the force there.
   Status judged(Status status, [[maybe_unused]] Scalar s,
-                [[maybe_unused]] const VectorOf<Scalar, dimension>& normal, bool in_range) const noexcept {
-    if constexpr (dimension == 3) in_range = in_range && !std::get_if<General>(&ways_)->overdrawn(s, normal);
+                [[maybe_unused]] const VectorOf<Scalar, dimension>& force, bool in_range) const noexcept {
+    if constexpr (dimension == 3) in_range = in_range && !std::get_if<General>(&ways_)->too_coarse(s, force);
     return status == Status::ok && !in_range ? Status::out_of_range : status;
   }
 
@@ -223,7 +225,8 @@ template <class Element, typename Scalar, int Elements, int MaxElements, class S
 Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Solver>::solve(
     const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept {
   const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, valid); });
-  return finite({response.force, judged(response.status, nearest.s, nearest.normal, in_range)});
+  return finite(
+      {response.force, judged(response.status, nearest.s, response.force * nearest.normal, in_range)});
 }
 
 template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
@@ -240,8 +243,8 @@ Status FemModel<Element, Scalar, Elements, MaxElements, Solver>::push(Obstacle<S
     auto& pushed = obstacles[i].pushed;
     if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = status = Status::non_finite;
     if (obstacles[i].touching)
-      pushed.status =
-          judged(pushed.status, pushed.s, pushed.normal, range().nearest({pushed.s, 0}).s == pushed.s);
+      pushed.status = judged(pushed.status, pushed.s, pushed.force * pushed.normal,
+                             range().nearest({pushed.s, 0}).s == pushed.s);
   }
   return status;
 }

@@ -147,6 +147,16 @@ class RodChain {
     const double farthest = 1e6 * static_cast<double>(node(parts_.size()).s);
     return ends_[k].takes_pose() && pose.make_valid() && pose.at.squaredNorm() <= farthest * farthest;
   }
+  /// Whether a force in element e bends it so sharply beside an end that is held, at the distance σ and of the radius r, that it may be off by 1 % and more:
+  /// F max(σ², r²)/(EI + N σ²/2) above 1/4.   @param s [m]   @param force [N]
+  bool bent_beside_end(int e, Scalar s, Scalar force) const noexcept {
+    const RodProperties<Scalar>& p = parts_.properties(e);
+    const auto bent = [&](std::size_t k, Scalar off) {
+      const Scalar square = off * off, wide = (std::max)(square * p.softest(), 4 / p.axial);
+      return ends_[k].holds_place() && 4 * force * wide > 1 + parts_.stiffening(e) * square / 2;
+    };
+    return (e == 0 && bent(0, s)) || (e == parts_.size() - 1 && bent(1, length_ - s));
+  }
   /// What holds an end.   @param load  λ   @param inertia  null: at rest
   template <class Rows>
   HeldEnd<Scalar> reaction(std::size_t k, Scalar load, const Rows& rows, const Inertia* inertia = nullptr,
@@ -157,7 +167,8 @@ class RodChain {
     if (rows.in(e)) r += touched(rows, e);
     Increment at = r.template segment<unknowns>(k == 0 ? 0 : unknowns);
     if (inertia) at += inertia->force(parts_.nodes(), ends_.node(k));
-    return {at.template segment<3>(0), parts_.moment(at, node(ends_.node(k)).tangent), Status::ok};
+    return {at.template segment<3>(0), parts_.moment(at, node(ends_.node(k)).tangent),
+            parts_.overdrawn() ? Status::out_of_range : Status::ok};
   }
 
   // Its equations.

@@ -206,10 +206,14 @@ class ChainSystem {
     const Line line = drawn();
     return beside(line, line.segment_at(s), element_at(s), s).place;
   }
-  /// Whether the element at s is too long for its tension, pressed along a normal.  @param s  [m]
-  bool overdrawn([[maybe_unused]] Scalar s, [[maybe_unused]] const Vector& normal) const noexcept {
-    if constexpr (dimension == 3) return parts().overdrawn(element_at(s), s, normal);
-    else return false;
+  /// Whether the element at s is too long for its tension, or for such a force beside an end.  @param s  [m]   @param force  [N]
+  bool too_coarse([[maybe_unused]] Scalar s, [[maybe_unused]] const Vector& force) const noexcept {
+    if constexpr (dimension == 3) {
+      const int e = element_at(s);
+      return parts().overdrawn(e, s, force) || chain_.bent_beside_end(e, s, force.norm());
+    } else {
+      return false;
+    }
   }
   /// Where its middle is: a beam's across alone [m].
   auto middle() const noexcept { return Chain::middle(centreline().at(length_ / 2)); }

@@ -57,7 +57,7 @@ class WorldPairs : public JointedRods<Element> {
     for (--number_; k < number_; ++k) pairs_[at(k)] = pairs_[at(k + 1)];
   }
   /// Whether a rod is drawn so taut where it touches that its cubics may be off by 1 %: it has no tension of its own, or touches on its stiffer side.  Or it is
-  /// bent so sharply in the element beside an end that is held, F s²/EI > ½, that F may be off by 7 %, or touches closer to that than its own radius.
+  /// bent too sharply beside an end that is held.
   bool overdrawn() const noexcept {
     for (const Body& body : this->bodies())
       if (body.parts().overdrawn()) return true;
@@ -65,8 +65,11 @@ class WorldPairs : public JointedRods<Element> {
       bool is = false;
       if (pair.kind == RodPair::Kind::rotation) return is;
       each_rod(pair, [&](std::size_t side) {
-        is = is || this->body(pair.rod[side]).system().overdrawn(pair.s[side], pair.normal) ||
-             (pair.kind == RodPair::Kind::contact && bent_beside_end(pair, side));
+        const auto& system = this->body(pair.rod[side]).system();
+        const double s = pair.s[side];
+        const int e = system.centreline().segment_at(s);
+        is = is || system.parts().overdrawn(e, s, pair.normal) ||
+             (pair.kind == RodPair::Kind::contact && system.chain().bent_beside_end(e, s, pair.force));
       });
       return is;
     });
@@ -216,18 +219,6 @@ class WorldPairs : public JointedRods<Element> {
         });
     }
     return sum;
-  }
-  bool bent_beside_end(const RodPair& pair, std::size_t side) const noexcept {
-    constexpr double most = 0.5;
-    const auto& system = this->body(pair.rod[side]).system();
-    const int e = system.centreline().segment_at(pair.s[side]);
-    const auto beside = [&](std::size_t k, double off) {
-      return system.chain().ends()[k].holds_place() &&
-             (off < this->body(pair.rod[side]).radius() ||
-              pair.force * system.parts().properties(e).softest() * off * off > most);
-    };
-    return (e == 0 && beside(0, pair.s[side])) ||
-           (e == system.elements() - 1 && beside(1, system.length() - pair.s[side]));
   }
   void give_friction(RodPair& pair) noexcept {
     const Friction friction = friction_of(frictions_[at(pair.rod[0])], frictions_[at(pair.rod[1])]);

@@ -106,11 +106,12 @@ class RodElements {
                                                               : VectorOf<Scalar, 3>(there.director);
     return stiffer.dot(across) * stiffer.dot(across) > aside * across.squaredNorm();
   }
-  /// Whether it is bent by nature and an element drawn so straight that forces may be off by 1 %, wherever they act.
+  /// Whether forces may be off by 1 %, wherever they act: it is bent by nature and an element drawn so straight, or an end is turned against a pull so that
+  /// it bends within less than an element.
   bool overdrawn() const noexcept {
     for (int e = 0; e < size() && natural_.bent(); ++e)
       if (overdrawn(e)) return true;
-    return false;
+    return turned(0, nodes_[0]) || turned(size() - 1, nodes_[size()]);
   }
   /// What an element is made of.
   const RodProperties<Scalar>& properties(int e) const noexcept { return properties_[e]; }
@@ -368,16 +369,26 @@ class RodElements {
   using WideInner = typename Element::template Inner<Wide>;
   using Stiffness = RodTangent<Wide, unknowns - 3>;
 
+  Scalar tension(int e) const noexcept {
+    if (taut()) return inner_[e];
+    const RodProperties<Scalar>& p = properties_[e];
+    const detail::EndsAndMiddle<Scalar> at(p, nodes_[e], nodes_[e + 1]);
+    const auto strain = [&](int k) { return at.n[k] - 1 - p.natural_strain[k]; };
+    return p.axial * (strain(0) + 4 * strain(1) + strain(2)) / 6;
+  }
   /// N l²/EI above 4, of what is bent by nature above 0.4.
   bool overdrawn(int e) const noexcept {
     const RodProperties<Scalar>& p = properties_[e];
-    Scalar tension = inner_[e];
-    if (!taut()) {
-      const detail::EndsAndMiddle<Scalar> at(p, nodes_[e], nodes_[e + 1]);
-      const auto strain = [&](int k) { return at.n[k] - 1 - p.natural_strain[k]; };
-      tension = p.axial * (strain(0) + 4 * strain(1) + strain(2)) / 6;
-    }
-    return tension * p.length * p.length * p.softest() > (natural_.bent() ? Scalar(0.4) : Scalar(4));
+    return tension(e) * p.length * p.length * p.softest() > (natural_.bent() ? Scalar(0.4) : Scalar(4));
+  }
+  /// By an angle α against the chord of its element, N l² (1 - cos α)/EI above 1, or at all where the element does not know its tension.
+  bool turned(int e, const Node& end) const noexcept {
+    constexpr Scalar at_all = Scalar(1e-6);
+    const RodProperties<Scalar>& p = properties_[e];
+    const VectorOf<Scalar, 3> chord = nodes_[e + 1].r - nodes_[e].r;
+    const Scalar longer = std::sqrt(chord.squaredNorm()) - chord.dot(detail::unit(end.tangent));
+    return tension(e) * p.length * longer * p.softest() > 1 ||
+           (longer > at_all * p.length && overdrawn(e, end.s, chord));
   }
   void make(int e) noexcept {
     const Scalar from = nodes_[e].s, to = nodes_[e + 1].s;

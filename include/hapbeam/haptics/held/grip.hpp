@@ -101,7 +101,8 @@ class Touch<Grip<Model>> {
     if constexpr (has_mass<Model>) {
       Status status = model.hold(grip_.side(), pose, damper);
       if (is_answer(status)) status = go_on(dt);
-      held = model.reaction(grip_.side()), held.status = status;
+      held = model.reaction(grip_.side());
+      if (status != Status::ok) held.status = status;
     } else {
       held = model.hold(grip_.side(), pose);
     }
