@@ -169,7 +169,7 @@ class DynamicModel {
     motion_.ends.aim(system_.chain(), from, to, time);
     contacts_.draw(system_);
     motion_.aim(system_, stage, foresees);
-    return contacts_.solve(
+    const bool found = contacts_.solve(
         system_, time, to, foresees ? motion_.step.onward(stage) : Scalar(0), [&](bool touched) {
           NewtonRaphson solver;
           solver.pairs_differ = motion_.massless();
@@ -179,6 +179,8 @@ class DynamicModel {
           solves_ += report.solves;
           return report.status == Status::ok;
         });
+    // No motion folds an element, only a step too far.
+    return found && !system_.folded(rest_);
   }
 
   static constexpr double free_tolerance = 1e-9;  // errors of steps add up where no hand is
