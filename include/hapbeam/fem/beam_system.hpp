@@ -125,6 +125,12 @@ class BeamChain {
   }
 
   detail::BeamEnds<Scalar>& ends() noexcept { return ends_; }
+  /// Of how sharply a force may bend element e beside an end.  A hinge lets it turn.
+  detail::SharpestBend<Scalar> sharpest(int e) const noexcept {
+    const auto& p = parts_.properties()[e];
+    return {1 / (p.bending_per_length3 * p.length * p.length * p.length), 48 / p.axial_stiffness};
+  }
+  bool holds_end(std::size_t k) const noexcept { return ends_[k].held[1] && ends_[k].held[2]; }
 
   // Its equations.
 

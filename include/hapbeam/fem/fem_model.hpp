@@ -95,8 +95,7 @@ class FemModel {
   /// not touch; none pulls.  Several<Element, Contacts> takes so many, any other element one.
   /// @param obstacles  in and out: count of them
   /// @return ok | snapped | iteration_limit | singular | non_finite; each obstacle has a status of its own, too.  out_of_range: nearer to a support
-  ///         than range() says, or where the error may exceed 1 %: a rod without a tension of its own is drawn too taut, or bent too sharply beside a
-  ///         held end.
+  ///         than range() says, or where the error may exceed 1 %: bent too sharply beside a held end, or a rod without a tension of its own, drawn too taut.
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Status push(Obstacle<Scalar, dimension>* obstacles, int count) noexcept;
 
@@ -165,10 +164,11 @@ class FemModel {
     return f(*std::get_if<General>(&ways));
   }
 
-  /// Of an answer at s: out_of_range where the mesh is too coarse for the tension or the force there.
-  Status judged(Status status, [[maybe_unused]] Scalar s,
-                [[maybe_unused]] const VectorOf<Scalar, dimension>& force, bool in_range) const noexcept {
-    if constexpr (dimension == 3) in_range = in_range && !std::get_if<General>(&ways_)->too_coarse(s, force);
+  /// Whether the mesh is too coarse for the tension or a force at s.
+  bool too_coarse(Scalar s, const VectorOf<Scalar, dimension>& force) const noexcept {
+    return std::get_if<General>(&ways_)->too_coarse(s, force);
+  }
+  static Status judged(Status status, bool in_range) noexcept {
     return status == Status::ok && !in_range ? Status::out_of_range : status;
   }
 
@@ -225,8 +225,10 @@ template <class Element, typename Scalar, int Elements, int MaxElements, class S
 Response<Scalar> FemModel<Element, Scalar, Elements, MaxElements, Solver>::solve(
     const Push<Scalar, dimension>& nearest, bool valid, bool in_range) noexcept {
   const Response<Scalar> response = take(ways_, [&](auto& way) { return way.press(nearest, valid); });
-  return finite(
-      {response.force, judged(response.status, nearest.s, response.force * nearest.normal, in_range)});
+  // In a plane a press has its range.
+  if constexpr (dimension == 3)
+    in_range = in_range && !too_coarse(nearest.s, response.force * nearest.normal);
+  return finite({response.force, judged(response.status, in_range)});
 }
 
 template <class Element, typename Scalar, int Elements, int MaxElements, class Solver>
@@ -243,8 +245,8 @@ Status FemModel<Element, Scalar, Elements, MaxElements, Solver>::push(Obstacle<S
     auto& pushed = obstacles[i].pushed;
     if (!std::isfinite(pushed.force)) pushed.force = 0, pushed.status = status = Status::non_finite;
     if (obstacles[i].touching)
-      pushed.status = judged(pushed.status, pushed.s, pushed.force * pushed.normal,
-                             range().nearest({pushed.s, 0}).s == pushed.s);
+      pushed.status = judged(pushed.status, range().nearest({pushed.s, 0}).s == pushed.s &&
+                                                !too_coarse(pushed.s, pushed.force * pushed.normal));
   }
   return status;
 }

@@ -98,7 +98,8 @@ class RodChain {
   static const Vector3& displacement(const RodPoint<Scalar>& at) noexcept { return at.r; }
   static Vector3 middle(const RodPoint<Scalar>& at) noexcept { return at.r; }
   static bool folds(const Node& a, const Node& b) noexcept {
-    return detail::unit(a.tangent).dot(detail::unit(b.tangent)) < Scalar(-0.4);
+    const Scalar along = a.tangent.dot(b.tangent);
+    return along < 0 && along * along > Scalar(0.16) * a.tangent.squaredNorm() * b.tangent.squaredNorm();
   }
   /// By which an increment turns a node [rad].
   static Scalar turn(const Node& node, const Increment& x) noexcept {
@@ -147,16 +148,12 @@ class RodChain {
     const double farthest = 1e6 * static_cast<double>(node(parts_.size()).s);
     return ends_[k].takes_pose() && pose.make_valid() && pose.at.squaredNorm() <= farthest * farthest;
   }
-  /// Whether a force in element e bends it so sharply beside an end that is held, at the distance σ and of the radius r, that it may be off by 1 % and more:
-  /// F max(σ², r²)/(EI + N σ²/2) above 1/4.   @param s [m]   @param force [N]
-  bool bent_beside_end(int e, Scalar s, Scalar force) const noexcept {
+  /// Of how sharply a force may bend element e beside an end.
+  detail::SharpestBend<Scalar> sharpest(int e) const noexcept {
     const RodProperties<Scalar>& p = parts_.properties(e);
-    const auto bent = [&](std::size_t k, Scalar off) {
-      const Scalar square = off * off, wide = (std::max)(square * p.softest(), 4 / p.axial);
-      return ends_[k].holds_place() && 4 * force * wide > 1 + parts_.stiffening(e) * square / 2;
-    };
-    return (e == 0 && bent(0, s)) || (e == parts_.size() - 1 && bent(1, length_ - s));
+    return {4 * p.softest(), 16 / p.axial};
   }
+  bool holds_end(std::size_t k) const noexcept { return ends_[k].holds_place(); }
   /// What holds an end.   @param load  λ   @param inertia  null: at rest
   template <class Rows>
   HeldEnd<Scalar> reaction(std::size_t k, Scalar load, const Rows& rows, const Inertia* inertia = nullptr,

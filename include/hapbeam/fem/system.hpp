@@ -40,6 +40,13 @@ struct ChainEnergies {
   Scalar measured;  ///< what increments are measured by
 };
 
+/// A force F bends an element too sharply at the distance σ from its end where F max(by_place σ², least) is above 1.
+template <typename Scalar>
+struct SharpestBend {
+  Scalar by_place;  ///< [1/(N·m²)]
+  Scalar least;     ///< [1/N]
+};
+
 /// Calls f(e) for each element that is touched.
 template <class Rows, class F>
 void each_touched(const Rows& rows, F&& f) noexcept {
@@ -207,13 +214,22 @@ class ChainSystem {
     return beside(line, line.segment_at(s), element_at(s), s).place;
   }
   /// Whether the element at s is too long for its tension, or for such a force beside an end.  @param s  [m]   @param force  [N]
-  bool too_coarse([[maybe_unused]] Scalar s, [[maybe_unused]] const Vector& force) const noexcept {
-    if constexpr (dimension == 3) {
-      const int e = element_at(s);
-      return parts().overdrawn(e, s, force) || chain_.bent_beside_end(e, s, force.norm());
-    } else {
-      return false;
-    }
+  bool too_coarse(Scalar s, const Vector& force) const noexcept {
+    const int e = element_at(s);
+    if constexpr (dimension == 3)
+      if (parts().overdrawn(e, s, force)) return true;
+    return bent_beside_end(e, s, force.norm());
+  }
+  /// Whether a force in element e bends it so sharply beside an end that is held, at the distance σ, that it may be off by 1 % and more:  in the plane
+  /// F max(σ², (2h)²)/(EI + N σ²/2) above 1, h being the thickness, in space F max(σ², r²)/(EI + N σ²/2) above 1/4.   @param s [m]   @param force [N]
+  bool bent_beside_end(int e, Scalar s, Scalar force) const noexcept {
+    const auto sharpest = chain_.sharpest(e);
+    const auto bent = [&](std::size_t k, Scalar off) {
+      const Scalar square = off * off;
+      return chain_.holds_end(k) && force * (std::max)(square * sharpest.by_place, sharpest.least) >
+                                        1 + parts().stiffening(e) * square / 2;
+    };
+    return (e == 0 && bent(0, s)) || (e == elements() - 1 && bent(1, length_ - s));
   }
   /// Where its middle is: a beam's across alone [m].
   auto middle() const noexcept { return Chain::middle(centreline().at(length_ / 2)); }

@@ -69,7 +69,7 @@ class WorldPairs : public JointedRods<Element> {
         const double s = pair.s[side];
         const int e = system.centreline().segment_at(s);
         is = is || system.parts().overdrawn(e, s, pair.normal) ||
-             (pair.kind == RodPair::Kind::contact && system.chain().bent_beside_end(e, s, pair.force));
+             (pair.kind == RodPair::Kind::contact && system.bent_beside_end(e, s, pair.force));
       });
       return is;
     });
