@@ -215,21 +215,22 @@ class ChainSystem {
   }
   /// Whether the element at s is too long for its tension, or for such a force beside an end.  @param s  [m]   @param force  [N]
   bool too_coarse(Scalar s, const Vector& force) const noexcept {
-    const int e = element_at(s);
     if constexpr (dimension == 3)
-      if (parts().overdrawn(e, s, force)) return true;
-    return bent_beside_end(e, s, force.norm());
+      if (parts().overdrawn(element_at(s), s, force)) return true;
+    return bent_beside_end(s, force.norm());
   }
-  /// Whether a force in element e bends it so sharply beside an end that is held, at the distance σ, that it may be off by 1 % and more:  in the plane
+  /// Whether a force in the element beside an end that is held bends it so sharply, at the distance σ, that it may be off by 1 % and more:  in the plane
   /// F max(σ², (2h)²)/(EI + N σ²/2) above 1, h being the thickness, in space F max(σ², r²)/(EI + N σ²/2) above 1/4.   @param s [m]   @param force [N]
-  bool bent_beside_end(int e, Scalar s, Scalar force) const noexcept {
-    const auto sharpest = chain_.sharpest(e);
-    const auto bent = [&](std::size_t k, Scalar off) {
+  bool bent_beside_end(Scalar s, Scalar force) const noexcept {
+    const int last = elements() - 1;
+    const auto bent = [&](std::size_t k, int e, Scalar off) {
+      if (!chain_.holds_end(k)) return false;
+      const auto sharpest = chain_.sharpest(e);
       const Scalar square = off * off;
-      return chain_.holds_end(k) && force * (std::max)(square * sharpest.by_place, sharpest.least) >
-                                        1 + parts().stiffening(e) * square / 2;
+      return force * (std::max)(square * sharpest.by_place, sharpest.least) >
+             1 + parts().stiffening(e) * square / 2;
     };
-    return (e == 0 && bent(0, s)) || (e == elements() - 1 && bent(1, length_ - s));
+    return (s <= node(1).s && bent(0, 0, s)) || (s >= node(last).s && bent(1, last, length_ - s));
   }
   /// Where its middle is: a beam's across alone [m].
   auto middle() const noexcept { return Chain::middle(centreline().at(length_ / 2)); }

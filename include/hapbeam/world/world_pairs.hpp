@@ -67,9 +67,8 @@ class WorldPairs : public JointedRods<Element> {
       each_rod(pair, [&](std::size_t side) {
         const auto& system = this->body(pair.rod[side]).system();
         const double s = pair.s[side];
-        const int e = system.centreline().segment_at(s);
-        is = is || system.parts().overdrawn(e, s, pair.normal) ||
-             (pair.kind == RodPair::Kind::contact && system.bent_beside_end(e, s, pair.force));
+        is = is || system.parts().overdrawn(system.centreline().segment_at(s), s, pair.normal) ||
+             (pair.kind == RodPair::Kind::contact && system.bent_beside_end(s, pair.force));
       });
       return is;
     });
