@@ -58,11 +58,9 @@ class RodBubbles : protected Stacked<S, Most> {
 
  protected:
   /// The curve beside a contact.
-  struct Spot : RodSpot<S> {
-    Matrix curved;     // D''
-    Matrix axes;       // along which C is the same: all, or those across r'
-    Vector soft_axis;  // of the section
-    Vector turns;      // moment with which C turns with the section, crossed with u
+  struct Spot : YieldingSpot<Element, S> {
+    Matrix curved;  // D''
+    Vector turns;   // moment with which C turns with the section, crossed with u
 
     Vector move(const Column& by) const noexcept {
       Vector sum = this->h[0].value * by.template segment<3>(0);
@@ -80,9 +78,7 @@ class RodBubbles : protected Stacked<S, Most> {
   /// Where r1, r1', r2 and r2' stand among the unknowns.
   static constexpr int start(int q) noexcept { return RodSpot<S>::start(unknowns, q); }
   /// Whether it yields alike along both axes of its section.
-  bool even() const noexcept { return unknowns < 7 || p_->soft[0] == p_->soft[1]; }
-  /// Along the axis along which it yields less [1/(N·m²)].
-  S stiffer() const noexcept { return RodSpot<S>::stiffer(*p_); }
+  bool even() const noexcept { return Spot::even(*p_); }
   /// Of what the second derivative of the distance is across.
   static constexpr S parallel = S(1e-3);
 
@@ -91,10 +87,10 @@ class RodBubbles : protected Stacked<S, Most> {
     look(0), seen_ = 1;
     const Contact& contact = *contacts_[0];
     Spot& spot = spots_[0];
-    look_at_section(spot);
     // Near enough for where it begins, the bubble is that of the force along n.
-    S yields = stiffer();
+    S yields = Spot::stiffer(*p_);
     if (!even()) {
+      spot.look_at_section(*p_, *a_, *b_, inner_, true);
       const S along = contact.normal.dot(spot.soft_axis);
       yields += std::abs(p_->soft[0] - p_->soft[1]) * along * along;
     }
@@ -105,11 +101,6 @@ class RodBubbles : protected Stacked<S, Most> {
     const S least = parallel * spot.t.squaredNorm() / contact.reach;
     if (!(bends + round > (std::max)(least, round / 3))) return std::numeric_limits<S>::quiet_NaN();
     return std::clamp(-off / (bends + round), -p_->length, p_->length);
-  }
-  /// Along which axis of the section it yields more.
-  void look_at_section([[maybe_unused]] Spot& spot) const noexcept {
-    if constexpr (unknowns == 7)
-      if (!even()) spot.soft_axis = spot.template softer<Element>(*p_, *a_, *b_, inner_.twist.value);
   }
   void look(int k) noexcept {
     using std::sqrt;
@@ -150,10 +141,8 @@ class RodBubbles : protected Stacked<S, Most> {
       const Contact& contact = *contacts_[at(k)];
       const Vector force = contact.force * contact.normal + contact.friction;
       for (int i = 0; i < 3; ++i) force_[at(3 * k + i)] = force[i];
-      // Along itself the curve yields to nothing; but what pushes across the true curve, and so not quite across the cubic, moves it along itself.
-      spot.axes = Matrix::Identity();
-      if (contact.rough || contact.kind == Contact::Kind::along) spot.axes -= spot.u * spot.u.transpose();
-      look_at_section(spot);
+      // Along itself the curve yields to nothing.
+      spot.look_at_section(*p_, *a_, *b_, inner_, !contact.rough && contact.kind != Contact::Kind::along);
     }
     slope_ = {};
     const S soft = p_->softest();
@@ -204,12 +193,7 @@ class RodBubbles : protected Stacked<S, Most> {
     for (int k = 0; k < count(); ++k) contacts_[at(k)]->tangent = spots_[at(k)].t + vector(slope_, k);
   }
   /// How two places yield to each other, in units of a piece's.
-  Matrix between(int i, int j) const noexcept {
-    const Spot &a = spots_[at(i)], &b = spots_[at(j)];
-    Matrix sum = stiffer() * (i == j ? a.axes : Matrix(a.axes * b.axes));
-    if (!even()) sum += std::abs(p_->soft[0] - p_->soft[1]) * a.soft_axis * b.soft_axis.transpose();
-    return sum;
-  }
+  Matrix between(int i, int j) const noexcept { return Spot::shape(*p_, spots_[at(i)], spots_[at(j)]); }
   /// What is condensed: places, and N behind them.
   int ways() const noexcept { return count() + (p_->taut ? 1 : 0); }
   void turn_twice(int i, int j, S by) noexcept {

@@ -54,13 +54,6 @@ struct RodSpot {
       of[6] -= (1 - x) * about, of[13] -= x * about;
     }
   }
-  /// Along which axis of its section an element yields more, where that is not the same to all sides.   @param twist  ψ
-  template <class Element>
-  Vector softer(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b, S twist) const noexcept {
-    const Vector d1 = Element::director(p, a, b, twist, x);
-    return p.soft[0] > p.soft[1] ? d1 : cross3(u, d1);
-  }
-
   /// @param a, b  nodes   @param N  tension, where that is an unknown [N]   @param s  from a [m]
   void look(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b, S N, S s) noexcept {
     using std::sqrt;
@@ -88,6 +81,39 @@ struct RodSpot {
     }
     stretched = sqrt(t.squaredNorm());
     u = t / stretched;
+  }
+};
+
+/// The same with the directions in which it yields.
+template <class Element, typename S>
+struct YieldingSpot : RodSpot<S> {
+  using typename RodSpot<S>::Vector;
+  using Matrix = Eigen::Matrix<S, 3, 3>;
+
+  Matrix axes;       // all, or those across r'
+  Vector soft_axis;  // of the section
+
+  /// Whether it yields alike along both axes of its section.
+  static bool even(const RodProperties<S>& p) noexcept {
+    return Element::unknowns < 7 || p.soft[0] == p.soft[1];
+  }
+  /// @param all  what pushes across the true curve, and so not quite across the cubic, moves it along itself; what rubs does not
+  template <class Inner>
+  void look_at_section(const RodProperties<S>& p, const RodNode<S>& a, const RodNode<S>& b,
+                       [[maybe_unused]] const Inner& inner, bool all) noexcept {
+    axes = Matrix::Identity();
+    if (!all) axes -= this->u * this->u.transpose();
+    if constexpr (Element::unknowns == 7)
+      if (!even(p)) {
+        const Vector d1 = Element::director(p, a, b, inner.twist.value, this->x);
+        soft_axis = p.soft[0] > p.soft[1] ? d1 : cross3(this->u, d1);
+      }
+  }
+  /// How two places yield to each other, in units of g.
+  static Matrix shape(const RodProperties<S>& p, const YieldingSpot& a, const YieldingSpot& b) noexcept {
+    Matrix sum = RodSpot<S>::stiffer(p) * (&a == &b ? a.axes : Matrix(a.axes * b.axes));
+    if (!even(p)) sum += std::abs(p.soft[0] - p.soft[1]) * a.soft_axis * b.soft_axis.transpose();
+    return sum;
   }
 };
 

@@ -33,6 +33,7 @@ class PairSide {
   using Vector = VectorOf<double, 3>;
   using Matrix = Eigen::Matrix<double, 3, 3>;
   using Tangent = Eigen::Matrix<double, 2 * unknowns, 2 * unknowns>;
+  using Spot = YieldingSpot<typename Chain::Element, double>;
 
  public:
   using Residual = VectorOf<double, 2 * unknowns>;
@@ -63,7 +64,7 @@ class PairSide {
   double add(const RodProperties<double>& p, const Node& n1, const Node& n2, const Inner& own,
              PairEquations& dense, Residual& r, Tangent& K, TensionRow<Residual>& tension) noexcept {
     spot_.look(p, n1, n2, own.tension.value, pair->s[side] - n1.s);
-    const RodSpot<double>& spot = spot_;
+    const Spot& spot = spot_;
     const double sign = side == 0 ? 1 : -1, C = spot.g.value;
     if (pair->kind == RodPair::Kind::rotation) return turn(sign, r, K), 0.0;
     if (pair->kind == RodPair::Kind::place)
@@ -78,9 +79,9 @@ class PairSide {
       b[4].setZero();
       pull(T, 1, b[4]);
     }
-    section_ = section(p, n1, n2, own, spot, rough);
-    const bool even = is_even(p) && !rough;
-    const Matrix yields = shape(p, section_, section_);
+    spot_.look_at_section(p, n1, n2, own, !rough);
+    const bool even = Spot::even(p) && !rough;
+    const Matrix yields = Spot::shape(p, spot, spot);
     const Vector yield = yields * F, v = C * yield, rise = spot.g.by(0) * yield;
     pull(F, 0, r);
     double place = -along_n.dot(spot.t) - along_n.dot(rise) / 2;
@@ -131,7 +132,7 @@ class PairSide {
     if (a.spot_.x > b.spot_.x) return couple(p, own, b, a, dense, r, tension);
     const Between C = between(p, own.tension.value, a.spot_.x * p.length, b.spot_.x * p.length);
     a.yield_to(b, p, C, 0, dense, r), b.yield_to(a, p, C, 1, dense, r);
-    const Matrix yields = shape(p, a.section_, b.section_);
+    const Matrix yields = Spot::shape(p, a.spot_, b.spot_);
     const auto enter = [&](int i, int j, double value) {
       dense((std::max)(i, j), (std::min)(i, j)) -= value;
     };
@@ -153,13 +154,13 @@ class PairSide {
     const RodProperties<double>& p = parts.properties(e);
     const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
     const auto own = parts.own(e);
-    RodSpot<double> spot;
+    Spot spot;
     spot.look(p, n1, n2, own.tension.value, s - n1.s);
-    const Section section = PairSide::section(p, n1, n2, own, spot, rough);
-    const Matrix yields = shape(p, section, section);
+    spot.look_at_section(p, n1, n2, own, !rough);
+    const Matrix yields = Spot::shape(p, spot, spot);
     const Vector yield = yields * F;
     Vector t = spot.t + spot.g.by(0) / 2 * yield;
-    if (rough || !is_even(p)) t += turned_yield(yields, F, spot);
+    if (rough || !Spot::even(p)) t += turned_yield(yields, F, spot);
     return {spot.r + spot.g.value * yield, t, spot.k + spot.bend * yield};
   }
   /// What a force at another place of the element adds to that.
@@ -169,15 +170,14 @@ class PairSide {
     const RodProperties<double>& p = parts.properties(e);
     const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
     const auto own = parts.own(e);
-    Section section[2];
+    Spot spot[2];
     for (int k = 0; k < 2; ++k) {
-      RodSpot<double> spot;
-      spot.look(p, n1, n2, own.tension.value, (k == 0 ? s : other) - n1.s);
-      section[k] = PairSide::section(p, n1, n2, own, spot, rough[at(k)]);
+      spot[k].look(p, n1, n2, own.tension.value, (k == 0 ? s : other) - n1.s);
+      spot[k].look_at_section(p, n1, n2, own, !rough[at(k)]);
     }
     const Between C = between(p, own.tension.value, (std::min)(s, other) - n1.s, (std::max)(s, other) - n1.s);
     const int i = s <= other ? 0 : 1;
-    const Vector yield = shape(p, section[0], section[1]) * F;
+    const Vector yield = Spot::shape(p, spot[0], spot[1]) * F;
     sum.r += C.value * yield, sum.tangent += C.by(i) * yield, sum.curvature += C.by(i, i) * yield;
   }
 
@@ -188,18 +188,18 @@ class PairSide {
   /// How two places yield to each other, in units of shape().  Two that press at one place share what they press with as one that has a little of its own.
   static Between between(const RodProperties<double>& p, double N, double x, double y) noexcept {
     constexpr double own = 1e-6;
-    return (1 - own) * RodSpot<double>::between(p, N, x, y);
+    return (1 - own) * Spot::between(p, N, x, y);
   }
   /// As couple(): what the other does here.   @param i  which place of C this is
   void yield_to(PairSide& other, const RodProperties<double>& p, const Between& C, int i,
                 PairEquations& dense, Residual& r) noexcept {
     const int here = unknown(3);
     const bool rough = pair->rough();
-    const Matrix yields = shape(p, section_, other.section_);
+    const Matrix yields = Spot::shape(p, spot_, other.spot_);
     const Vector yield = yields * other.F_, rise = C.by(i) * yield;
     const double bend = C.by(i, i) * along_n_.dot(yield), soft = p.softest(), by_both = soft * C.by(2, i);
     // What of it turns with the section.
-    const Vector turned = yield - RodSpot<double>::stiffer(p) * other.F_;
+    const Vector turned = yield - Spot::stiffer(p) * other.F_;
     const double place = along_n_.dot(rise) + C.value * along_n_.dot(cross3<double>(turning(spot_), turned));
     pair->pull[side] -= place, dense[here] += place, dense(here, here) -= bend;
     for (int c = 0; c < 3; ++c) {
@@ -211,8 +211,7 @@ class PairSide {
       if (rough) drags[at(its)] -= C.by(i) * T_.dot(there);
       if (p.taut) by_N[at(c)] -= soft * C.by(2) * of.dot(yield);
       spot_.turn(C.value * cross3<double>(turned, of), b[at(c)]);
-      spot_.turn(C.value * cross3<double>(there - RodSpot<double>::stiffer(p) * other.axis(c), F_),
-                 other.b[at(c)]);
+      spot_.turn(C.value * cross3<double>(there - Spot::stiffer(p) * other.axis(c), F_), other.b[at(c)]);
     }
     if (rough) drags[at(other.unknown(3))] -= C.by(0, 1) * T_.dot(yields * other.along_n_);
     if (p.taut) by_N[3] -= by_both * along_n_.dot(yield);
@@ -220,11 +219,9 @@ class PairSide {
     spot_.turn(C.value * cross3<double>(turned, F_), r);
   }
   /// Of the section along the rod.
-  static Vector turning(const RodSpot<double>& spot) noexcept {
-    return cross3(spot.u, spot.k) / spot.stretched;
-  }
+  static Vector turning(const Spot& spot) noexcept { return cross3(spot.u, spot.k) / spot.stretched; }
   /// Half of how C F changes along the rod because the section turns with it.
-  static Vector turned_yield(const Matrix& yields, const Vector& F, const RodSpot<double>& spot) noexcept {
+  static Vector turned_yield(const Matrix& yields, const Vector& F, const Spot& spot) noexcept {
     const Vector turns = turning(spot);
     return spot.g.value / 2 * (cross3<double>(turns, yields * F) - yields * cross3(turns, F));
   }
@@ -256,42 +253,14 @@ class PairSide {
     }
   }
   /// Where r1, r1', r2 and r2' stand among the unknowns.
-  static constexpr int start(int q) noexcept { return RodSpot<double>::start(unknowns, q); }
+  static constexpr int start(int q) noexcept { return Spot::start(unknowns, q); }
   /// Takes off a force there, or one along how the place moves.
   void pull(const Vector& force, int derivative, Residual& of) const noexcept {
     for (int q = 0; q < 4; ++q)
       of.template segment<3>(start(q)) -= (derivative == 0 ? spot_.h[q].value : spot_.h[q].by(0)) * force;
   }
-  static bool is_even(const RodProperties<double>& p) noexcept {
-    return unknowns < 7 || p.soft[0] == p.soft[1];
-  }
-  /// The directions in which it yields.
-  struct Section {
-    Matrix axes;    // all, or those across r'
-    Vector softer;  // along which it yields more, where there is one
-  };
-  /// What pushes across the true curve, and so not quite across the cubic, moves it along itself; what rubs does not.
-  template <class Node, class Inner>
-  static Section section(const RodProperties<double>& p, const Node& n1, const Node& n2,
-                         [[maybe_unused]] const Inner& own, const RodSpot<double>& spot,
-                         bool rough) noexcept {
-    Section section{Matrix::Identity(), Vector::Zero()};
-    if (rough) section.axes -= spot.u * spot.u.transpose();
-    if constexpr (unknowns == 7)
-      if (!is_even(p))
-        section.softer = spot.template softer<typename Chain::Element>(p, n1, n2, own.twist.value);
-    return section;
-  }
-  /// How two places yield to each other, in units of g.
-  static Matrix shape(const RodProperties<double>& p, const Section& a, const Section& b) noexcept {
-    Matrix shape = RodSpot<double>::stiffer(p) * (a.axes * b.axes);
-    if (!is_even(p)) shape += std::abs(p.soft[0] - p.soft[1]) * a.softer * b.softer.transpose();
-    return shape;
-  }
-
   Vector along_n_, T_, F_;  // λ n, T and their sum, on this rod
-  Section section_;
-  RodSpot<double> spot_;
+  Spot spot_;
 };
 
 }  // namespace hapbeam::detail

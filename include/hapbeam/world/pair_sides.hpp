@@ -21,13 +21,11 @@ namespace hapbeam::detail {
 /// @tparam Chain  RodChain
 template <class Chain>
 class PairSides {
-  using Side = PairSide<Chain>;
-
  public:
+  using Side = PairSide<Chain>;
   using Assembler = typename Chain::Assembler;
   static constexpr int unknowns = Chain::unknowns, most = 2 * most_pairs;
   using Vector = VectorOf<double, 3>;
-  using Point = typename Side::Point;
   using Residual = VectorOf<double, 2 * unknowns>;
   using Tangent = Eigen::Matrix<double, 2 * unknowns, 2 * unknowns>;
 
@@ -36,18 +34,6 @@ class PairSides {
     sides_.reserve(most), tensions_.reserve(most),
         products_.reserve(2 * most * (4 * most + 1) + 3 * most_pairs);
     for (int k = 0; k < most; ++k) sides_.emplace_back(elements);
-  }
-
-  /// Of the true curve of a rod at s, where a force acts on it.
-  template <class Parts>
-  static Point point(const Parts& parts, int e, double s, const Vector& force, bool rough) noexcept {
-    return Side::point(parts, e, s, force, rough);
-  }
-  /// As a force at another place of that element adds to it.
-  template <class Parts>
-  static void bend(Point& at, const Parts& parts, int e, double s, double other, const Vector& force,
-                   const std::array<bool, 2>& rough) noexcept {
-    Side::bend(at, parts, e, s, other, force, rough);
   }
 
   void clear() noexcept { size_ = 0, tensions_.clear(); }

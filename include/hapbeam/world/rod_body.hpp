@@ -65,14 +65,14 @@ class RodBody {
   const typename Chain::Parts& parts() const noexcept { return system_.chain().parts(); }
   auto line() const noexcept { return system_.centreline(); }
   /// Of the true curve at s, where a force acts on it.
-  typename Sides::Point point(double s, const Vector& force, bool rough) const noexcept {
-    return Sides::point(parts(), line().segment_at(s), s, force, rough);
+  typename Sides::Side::Point point(double s, const Vector& force, bool rough) const noexcept {
+    return Sides::Side::point(parts(), line().segment_at(s), s, force, rough);
   }
   /// What a force at another place adds to that, where it is in the same element.
-  void bend(typename Sides::Point& at, double s, double other, const Vector& force,
+  void bend(typename Sides::Side::Point& at, double s, double other, const Vector& force,
             const std::array<bool, 2>& rough) const noexcept {
     const int e = line().segment_at(s);
-    if (line().segment_at(other) == e) Sides::bend(at, parts(), e, s, other, force, rough);
+    if (line().segment_at(other) == e) Sides::Side::bend(at, parts(), e, s, other, force, rough);
   }
   int elements() const noexcept { return system_.elements(); }
   double length() const noexcept { return system_.length(); }
