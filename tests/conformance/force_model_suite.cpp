@@ -27,12 +27,13 @@ typename Model::Scalar deepest(const Model& model) {
   return std::isfinite(depth) ? depth : model.shape().length() / 10;
 }
 
-/// The same at a place: beside a support no steeper than 1 : 10 where the model states no slope.
+/// The same at a place: beside a support no steeper than 1 : 60 where the model states no slope, as in space, where a steeper press is out of range beside a
+/// clamp.
 template <class Model>
 typename Model::Scalar deepest_at(const Model& model, typename Model::Scalar s) {
   const auto range = model.range();
   return std::isfinite(range.depth) ? range.depth_at(s)
-                                    : std::min(s - range.left_support, range.right_support - s) / 10;
+                                    : std::min(s - range.left_support, range.right_support - s) / 60;
 }
 
 template <typename Scalar>

@@ -79,7 +79,7 @@ class FemModel {
 
   /// Prescribes the displacement along any direction, by a force along it.  At an end that slides along a wall the wall takes what does not
   /// act along it.
-  /// @return as press(); invalid_request also where the normal is not unit to half a thousandth
+  /// @return as press(); invalid_request also where the normal is not unit to half a thousandth; in space out_of_range also as of obstacles
   template <class E = Element, std::enable_if_t<any_rotation<E>, int> = 0>
   Response<Scalar> push(const Push<Scalar, dimension>& request) noexcept {
     const Scalar s = range().nearest({request.s, 0}).s;
