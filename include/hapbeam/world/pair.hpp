@@ -26,7 +26,8 @@ struct RodContact {
   VectorOf<double, 3> force;     ///< [N] on rod[0]
   VectorOf<double, 3> friction;  ///< [N] its part across the line that joins both places, which is the rest
   bool sliding;                  ///< whether they slide, where there is friction
-  std::array<VectorOf<double, 3>, 2> at;  ///< [m] points of the centrelines; of the surface of a body
+  /// [m] a point of the first centreline, and from there along the normal where the second one is, or the surface of a body
+  std::array<VectorOf<double, 3>, 2> at;
 };
 
 namespace detail {

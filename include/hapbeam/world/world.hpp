@@ -58,10 +58,9 @@ class World {
   }
   /// Once a period.
   /// @return ok | snapped | out_of_range, where there are more contacts than most_contacts, where one bends an element by half of its reach or too sharply
-  ///         beside an end that is held, where a rod that has no tension of its own is drawn too taut for its
-  ///         elements, and where a held end would come into a body: then nothing has moved | iteration_limit, where the ends or a fall are on their way:
-  ///         the next tick goes on | singular, also where something holds a joint open | non_finite.  No rod has passed another.  After 32 ticks that
-  ///         have led nowhere all rods begin anew at rest.
+  ///         beside an end that is held, where a rod that has no tension of its own is drawn too taut for its elements, and where a held end would come
+  ///         into a body: then nothing has moved | iteration_limit, where the ends or a fall are on their way: the next tick goes on | singular, also where
+  ///         something holds a joint open | non_finite.  No rod has passed another.  After 32 ticks that have led nowhere all rods begin anew at rest.
   Status tick() noexcept;
   /// What holds an end.
   HeldEnd<double> held(int rod, RodSide side) const noexcept {
