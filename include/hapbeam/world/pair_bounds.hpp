@@ -3,7 +3,8 @@
 //
 //   (A + Σ v pᵀ) u = b       A: symmetric, with given bounds;  p u = δλ of a pair that slides, or δs of a place;  v: what friction makes of it
 //
-// One after another by Sherman and Morrison's formula.  A bound for which that has no answer, where rods jam, stays as it was given.
+// One after another by Sherman and Morrison's formula:  det (A + v pᵀ) = (1 + p A⁻¹v) det A.  Where friction makes stable what is not with given bounds that changes its
+// sign.  A bound for which it has no answer, where rods jam, stays as it was given.
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(pairs · unknowns²).
 #pragma once
 
@@ -35,16 +36,20 @@ class PairBounds {
   /// A place with which friction goes along.
   void add(const Unknowns& v, int unknown) noexcept { bounds_.push_back({unknown - 2, {0, 0, 1}, v, 0}); }
   /// To be called after they are solved with given bounds.
-  void follow(Equations& equations, std::size_t unknowns) noexcept {
+  /// @param negative  eigenvalues with those that are one in a stable equilibrium are not   @return the same with bounds that follow
+  int follow(Equations& equations, std::size_t unknowns, int negative) noexcept {
     constexpr double jams = 0.01;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
       Bound& bound = bounds_[i];
       equations.solve(bound.answer);
       for (std::size_t j = 0; j < i; ++j) bounds_[j].correct(bound.answer, unknowns);
       const double rest = 1 + bound.of(bound.answer);
-      bound.over = rest > jams ? 1 / rest : 0.0;
+      const bool frees = negative > 0 && rest < -jams;
+      negative -= frees;
+      bound.over = rest > jams || frees ? 1 / rest : 0.0;
     }
     for (const Bound& bound : bounds_) bound.correct(equations.unknowns(), unknowns);
+    return negative;
   }
 
  private:

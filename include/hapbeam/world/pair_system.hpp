@@ -200,7 +200,7 @@ class PairSystem : public WorldPairs<Element> {
       body.sides.visit_dragged(
           [&](const PairEquations::Unknowns& v, int unknown) { bounds_.add(v, unknown); });
     });
-    bounds_.follow(*equations_, at(rows_));
+    negative_ = bounds_.follow(*equations_, at(rows_), negative_);
   }
   /// What is new keeps its direction, a hinge has no moment about its axis, and there is no second place on a body.
   void hold_still() noexcept {
