@@ -49,10 +49,11 @@ struct RodFoundation {
   double along;     ///< [N/m²] along it
 };
 
-/// A dead force at one point of the rod.
+/// A dead force and a moment at one point of the rod.
 struct RodForce {
-  double s;                   ///< [m] arc position
-  VectorOf<double, 3> force;  ///< [N]
+  double s;                             ///< [m] arc position
+  VectorOf<double, 3> force;            ///< [N]
+  VectorOf<double, 3> moment{0, 0, 0};  ///< [N·m] has a potential: fem/rod/rod_moments.hpp
 };
 
 /// A dead load per unit length, as a function of arc position s [m] -> [N/m].
@@ -127,6 +128,7 @@ class Rod : public detail::Slender<Rod, RodSection, RodMaterial, RodArc> {
     if (!(force.s >= 0 && force.s <= length_))
       detail::reject("force s", force.s, "m", "on the rod, 0 to its length");
     detail::all_finite("force", force.force, "N");
+    detail::all_finite("moment", force.moment, "N·m");
     return forces_.push_back(force), *this;
   }
 

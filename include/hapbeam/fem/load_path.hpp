@@ -129,7 +129,7 @@ struct LoadPath {
   /// the tangent is assembled anew.
   template <class System>
   static bool stable(System& system, int& solves, int corrections) noexcept {
-    if (corrections > 0 && system.negative_pivots() == 0) return true;
+    if (corrections > 1 && system.negative_pivots() == 0) return true;
     ++solves;
     return system.factor(system.neutral()) == Status::ok && system.negative_pivots() == 0;
   }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -185,14 +186,16 @@ class RodChain {
   template <class Rows>
   [[gnu::always_inline]] detail::ChainEnergies<Scalar> assemble(Scalar load, Rows& rows,
                                                                 Assembler& assembler) noexcept {
-    const auto [strain, work, all] =
+    auto [strain, work, all] =
         parts_.visit_tangents(load, [&](int first, auto& K, auto& r) { assembler.add_pairs(first, K, r); });
     Scalar energy = strain, inner = all;
     // Where it is touched, its tension has its equation there.
     if (rows.any() && parts_.taut())
       detail::each_touched(rows, [&](int e) { inner -= parts_.inner(e).tension.energy(); });
-    energy += parts_.visit_foundation(
-        [&](int e, const auto& K, const Residual& r) { assembler.add_more(e, K, r); });
+    if (parts_.has_more()) {
+      const auto [stored, done] = add_more(load, assembler);
+      energy += stored, work += done;
+    }
     energy += ends_.visit_springs(
         parts_.nodes(), [&](int i, const Block& K, const Increment& r) { assembler.add_at(i, K, r); });
     if (rows.any()) energy += add_contacts(rows, assembler);
@@ -293,6 +296,13 @@ class RodChain {
   using Residual = typename Parts::Residual;
   using Block = Eigen::Matrix<Scalar, unknowns, unknowns>;
   const Node& node(int i) const noexcept { return parts_.nodes()[i]; }
+  /// Residual and tangent of an elastic foundation and of moments.  Not inlined by intent.   @return energy, and work of λ times the moments [J]
+  [[gnu::noinline]] std::array<Scalar, 2> add_more(Scalar load, Assembler& assembler) noexcept {
+    return {parts_.visit_foundation(
+                [&](int e, const auto& K, const Residual& r) { assembler.add_more(e, K, r); }),
+            parts_.visit_moments(
+                load, [&](int i, const Block& K, const Increment& r) { assembler.add_at(i, K, r); })};
+  }
   /// Residual and tangent of contacts within elements.  Not inlined by intent.   @return their energy [J]
   template <class Rows>
   [[gnu::noinline]] Scalar add_contacts(Rows& rows, Assembler& assembler) noexcept {

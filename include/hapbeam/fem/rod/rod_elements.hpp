@@ -18,6 +18,7 @@
 #include <hapbeam/fem/rod/natural_rod.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/rod/rod_loads.hpp>
+#include <hapbeam/fem/rod/rod_moments.hpp>
 #include <hapbeam/fem/section_cut.hpp>
 #include <hapbeam/unroll.hpp>
 
@@ -67,6 +68,7 @@ class RodElements {
     round_ = even && profile_.round() && !viscous;
     own_ = {rod.drawn() && even && !viscous, has_twist && !round_};
     lay_mesh<Scalar>(rod, rod.forces(), elements, [this](int i, Scalar s) { nodes_[i] = natural_.at(s); });
+    moments_ = {rod, unknowns, natural_, nodes_};
     for (int e = 0; e < elements; ++e) make(e);
     if (!loads_.empty()) loads_.take(view(nodes_));
   }
@@ -238,6 +240,14 @@ class RodElements {
     }
     return energy;
   }
+  /// The same of moments at nodes.   @param visit  called with (node, tangent, residual)   @return work of λ times them [J]
+  template <class Visit>
+  Scalar visit_moments(Scalar lambda, Visit&& visit) noexcept {
+    moments_.turn(nodes_);
+    return moments_.template visit<unknowns>(lambda, nodes_, visit);
+  }
+  /// Whether there are any of these two.
+  bool has_more() const noexcept { return !bed_.empty() || !moments_.empty(); }
   /// The residual alone of one element.
   void residual(int e, Scalar lambda, Residual& r) const noexcept {
     const int place = abreast_.order().place(e), lane = place % lanes;
@@ -252,6 +262,10 @@ class RodElements {
     Tangent unused = Tangent::Zero();
     if (!bed_.empty()) (void)bed_.template add<unknowns>(e, nodes_[e], nodes_[e + 1], r, unused);
     if (!loads_.empty()) loads_.template subtract<unknowns>(e, lambda, r);
+    if (!moments_.empty())
+      moments_in(e, lambda, [&](int node, const auto& by) {
+        r.template segment<unknowns>(node == e ? 0 : unknowns) += by;
+      });
   }
   /// About a node, of what works on its unknowns.
   static VectorOf<Scalar, 3> moment(const VectorOf<Scalar, unknowns>& r,
@@ -325,6 +339,10 @@ class RodElements {
           contacts([&](Scalar x, const Vector3& force, const Vector3& there) {
             if (whole || x < at.s) of.pass(force, there);
           });
+          moments_in(e, lambda, [&](int node, const auto& by) {
+            if (whole || at.passed(nodes_[node].s))
+              of.moment += RodElements::moment(by, nodes_[node].tangent);
+          });
           if (!bed_.empty())
             bed_.visit(a.s, whole ? b.s : at.s, natural_, [&](Scalar x, const auto& k, const Vector3& home) {
               const Vector3 there = place_at(x).r;
@@ -353,7 +371,9 @@ class RodElements {
   Scalar work(Scalar lambda) const noexcept {
     Scalar work = 0;
     for (int e = 0; !loads_.empty() && e < size(); ++e) work += loads_.work(e, nodes_[e], nodes_[e + 1]);
-    return lambda * work;
+    work *= lambda;
+    if (!moments_.empty()) work += moments_.template visit<unknowns>(lambda, nodes_, [](auto&&...) {});
+    return work;
   }
 
  private:
@@ -445,6 +465,13 @@ class RodElements {
     gather(first, inner, a, b);
     return Element::tangent(abreast_.properties(first), a, b, inner, K);
   }
+  /// Moments at the node that element e begins with, at the last one's end, too.   @param visit  called with (node, residual)
+  template <class Visit>
+  void moments_in(int e, Scalar lambda, Visit&& visit) const noexcept {
+    (void)moments_.template visit<unknowns>(lambda, nodes_, [&](int node, const auto&, const auto& r) {
+      if ((std::min)(node, size() - 1) == e) visit(node, r);
+    });
+  }
   /// Dead loads.
   void subtract_loads(int first, Scalar lambda, WideResidual& r, Energies& sum) noexcept {
     abreast_.for_each_lane(first, [&](int e, int lane) {
@@ -470,6 +497,7 @@ class RodElements {
   detail::RodSurface<Scalar> surface_;
   bool round_ = false;  // section, and straight by nature
   Own own_;
+  detail::RodMoments<Scalar> moments_;
 };
 
 }  // namespace hapbeam
