@@ -105,6 +105,26 @@ TEST_CASE("a moment's residual and tangent are the derivatives of its work", "[r
   }
 }
 
+TEST_CASE("the work of a moment counts turns", "[rod][moment]") {
+  Rod rod(1, RodStiffness{1, 1, 1, 1}, 0.01, RodSupport::clamped, RodSupport::free);
+  rod.add({1, {0, 0, 0}, {0, 0, 2}}).add({1, {0, 0, 0}, {3, 0, 0}});
+  const NaturalRod<double> natural(rod);
+  detail::PerNode<RodNode<double>, Eigen::Dynamic, Eigen::Dynamic> nodes(2);
+  for (int i = 0; i <= 2; ++i) nodes[i] = natural.at(i / 2.0);
+  const auto work = [&](int turns, const Point& axis) {
+    detail::RodMoments<double> moments(rod, 7, natural, nodes);
+    auto turned = nodes;
+    for (int k = 1; k <= 4 * turns; ++k)
+      turned[2] = rotated<double>(nodes[2], axis, k * pi / 2 + 0.1, {0, 0, 0}), moments.turn(turned);
+    return moments.visit<7>(1.0, turned, [](auto&&...) {});
+  };
+  // About the tangent alone T works.
+  CHECK(work(3, {1, 0, 0}) == Approx(3 * (6 * pi + 0.1)).epsilon(1e-12));
+  rod = Rod(1, RodStiffness{1, 1, 1, 1}, 0.01, RodSupport::clamped, RodSupport::free);
+  rod.add({1, {0, 0, 0}, {0, 0, 2}});
+  CHECK(work(5, {0, 0, 1}) == Approx(2 * (10 * pi + 0.1)).epsilon(1e-12));
+}
+
 // What a cubic leaves of an arc of the angle α = 2π turns/n is of fourth order: to 1e-9 where that is 0.02.
 TEST_CASE("a moment at the tip bends a cantilever into an arc", "[rod][moment]") {
   CHECK(off_arc(FemModel<RoundRod>(arc(wire, 0.1), 32), 0.1) <= 1e-9);

@@ -60,7 +60,8 @@ namespace {
 
 template <class Element>
 void check_alone(bool led) {
-  const Rod rod(0.3, RodSection::circle(0.002), steel, RodSupport::clamped, RodSupport::free);
+  Rod rod(0.3, RodSection::circle(0.002), steel, RodSupport::clamped, RodSupport::free);
+  rod.add({0.3, {0, 0, 0}, {0, 0.1, 0.2}});
   DynamicModel<Element> model(rod, 8);
   World<Element> world({{rod, 8}});
   const auto velocity = [](double s) {
