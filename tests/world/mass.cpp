@@ -60,8 +60,7 @@ namespace {
 
 template <class Element>
 void check_alone(bool led) {
-  Rod rod(0.3, RodSection::circle(0.002), steel, RodSupport::clamped, RodSupport::free);
-  rod.add({0.3, {0, 0, 0}, {0, 0.1, 0.2}});
+  const Rod rod(0.3, RodSection::circle(0.002), steel, RodSupport::clamped, RodSupport::free);
   DynamicModel<Element> model(rod, 8);
   World<Element> world({{rod, 8}});
   const auto velocity = [](double s) {
@@ -95,6 +94,26 @@ void check_alone(bool led) {
 
 TEST_CASE("a rod of a World that nothing touches moves as DynamicModel has it", "[world]") {
   for (const bool led : {false, true}) check_alone<RoundRod>(led), check_alone<TwistedRod>(led);
+}
+
+TEST_CASE("a moment acts on a rod of a World as on one alone, with mass and without", "[world]") {
+  Rod rod(0.3, RodSection::circle(0.002), steel, RodSupport::clamped, RodSupport::free);
+  rod.add({0.2, {0, 0, 0}, {0.1, 0.1, 0.2}}).add({0.3, {0, 0, 0}, {0, 0.1, -0.1}});
+  FemModel<TwistedRod> model(rod, 10);
+  World<TwistedRod> world({{rod, 10}});
+  const RodPose root{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  REQUIRE(world.hold(0, RodSide::left, root) == Status::ok);
+  REQUIRE(world.tick() == Status::ok);
+  const auto off = [&] { return (world.shape(0).at(0.3).r - model.shape().at(0.3).r).norm(); };
+  const Point held = model.hold(RodSide::left, root).moment;
+  CHECK(model.shape().at(0.3).r.y() > 0.01);
+  CHECK(off() <= 1e-12);
+  CHECK(held.norm() > 0.2);
+  CHECK((world.held(0, RodSide::left).moment - held).norm() <= 1e-9);
+  for (int k = 0; k < 20; ++k) REQUIRE(world.step(1e-3) == Status::ok);
+  CHECK(off() <= 1e-9);
+  const DynamicModel<TwistedRod> alone(rod, 10);
+  CHECK(world.energy().sum() == Approx(alone.energy().sum()).epsilon(1e-9));
 }
 
 // Each yields at the place with a velocity of ∫ F(τ) Y/√(π (t - τ)) dτ,  Y = (4EI/m)^(3/4)/8EI.  So rods that meet at V have  F = V/Σ Y √(πt).

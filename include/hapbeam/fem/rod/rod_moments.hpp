@@ -9,12 +9,12 @@
 //   M (a - (a·u) u)/(1 - (a·u)²)      as through a fork that turns on a fixed axis and lets the rod twist: M in a plane
 //   T (t° + u)/(1 + t°·u)             as through a joint of constant velocity to a shaft along t°: T along what stays straight
 //
-// A moment that stays as it is in space, or turns with the rod, has none (docs/decisions/moments_of_rods.md).
+// A moment that stays as it is in space, or turns with the rod, has no potential (docs/decisions/moments_of_rods.md).
 // Allocates and throws at construction; every other member is noexcept and allocation-free, O(moments).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 #include <hapbeam/fem/loads.hpp>
