@@ -6,6 +6,7 @@
 // Allocates and throws at construction; every other member is noexcept and allocation-free.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <stdexcept>
@@ -182,7 +183,7 @@ class PairMotion : public PairEquilibrium<Element> {
         motion.aim(body.system(), stage, whole && !touched);
       });
       this->begin_stage(stage, free);
-      if (this->settle() != Outcome::settled) return false;
+      if (this->settle() != Outcome::settled || folded()) return false;
       if (!this->changed() || !(take_euler(lasting + 1) || smooth)) break;
       system().restore();
       (void)take_euler(lasting + 1);
@@ -192,6 +193,11 @@ class PairMotion : public PairEquilibrium<Element> {
     each([&](Body& body) { body.motion->know(body.system(), stage); });
     accept();
     return true;
+  }
+  // No motion folds an element, only a step too far.
+  bool folded() const noexcept {
+    return std::any_of(system().bodies().begin(), system().bodies().end(),
+                       [](const Body& body) { return body.folded(); });
   }
   /// Contacts of fewer stages, and what is tied to those, go on by Euler's rule.   @return whether any did not yet
   bool take_euler(int stages) noexcept {

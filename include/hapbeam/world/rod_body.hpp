@@ -163,6 +163,8 @@ class RodBody {
     if constexpr (unknowns == 7) turn += by[6] * unit(t);
     return turn;
   }
+  /// As of ChainSystem.
+  bool folded() const noexcept { return system_.folded(rest_); }
   /// Largest rotation of a node in the last increment [rad].
   double turn() const noexcept {
     double largest = 0;
