@@ -106,7 +106,7 @@ template <typename Scalar, int D>
 struct RoundBeside {
   using Vector = VectorOf<Scalar, D>;
 
-  Vector facing;         ///< unit, across the tangent at the foot, to where it comes from
+  Vector facing;  ///< unit, to where it comes from: across the tangent at the foot, past an end from that
   Scalar height, aside;  ///< of the centre along that [m], and how far it is aside of that, squared [m²]
   Scalar gap;     ///< from the beam to the centre, negative behind it; past an end from its last point [m]
   Vector normal;  ///< unit, along that
@@ -135,15 +135,16 @@ auto look_beside(const System& system, const Round& of, typename System::Scalar&
   // Where a beam that is bent far leads the search to and fro, no foot is found, and the place is not beside it.
   const bool beyond = (foot <= 0 && view.ahead < 0) || (foot >= system.length() && view.ahead > 0) ||
                       std::abs(view.ahead) > of.reach;
+  const Scalar size = std::sqrt(off.squaredNorm());
+  const Vector toward = off / size;
   Vector facing = view.normal;
   Scalar height = view.distance, aside = 0;
-  if constexpr (dimension == 3) {
-    // Behind the axis of a rod it has the side from which it came.
-    facing = round.facing(node.tangent), height = facing.dot(off);
-    if (!beyond) aside = (std::max)(off.squaredNorm() - height * height, Scalar(0));
-  }
-  const Scalar size = std::sqrt(off.squaredNorm());
-  if (beyond || (dimension == 3 && height > 0)) return {facing, height, aside, size, off / size, place, foot};
+  // Behind the axis of a rod it has the side from which it came.
+  if constexpr (dimension == 3) facing = round.facing(node.tangent), height = facing.dot(off);
+  // Past an end it pushes the last point away from itself, until it is behind that.
+  if (beyond && height > 0) return {toward, size, 0, size, toward, place, foot};
+  if (beyond || dimension == 3) aside = (std::max)(size * size - height * height, Scalar(0));
+  if (beyond || (dimension == 3 && height > 0)) return {facing, height, aside, size, toward, place, foot};
   return {facing, height, aside, height, facing, place, foot};
 }
 
