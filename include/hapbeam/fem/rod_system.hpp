@@ -98,9 +98,12 @@ class RodChain {
   }
   static const Vector3& displacement(const RodPoint<Scalar>& at) noexcept { return at.r; }
   static Vector3 middle(const RodPoint<Scalar>& at) noexcept { return at.r; }
+  /// Turned by more than 114° between them, or squeezed there as no rod is that may bend: to less than 0.7 of its length.
   static bool folds(const Node& a, const Node& b) noexcept {
-    const Scalar along = a.tangent.dot(b.tangent);
-    return along < 0 && along * along > Scalar(0.16) * a.tangent.squaredNorm() * b.tangent.squaredNorm();
+    const Scalar along = a.tangent.dot(b.tangent), first = a.tangent.squaredNorm(),
+                 second = b.tangent.squaredNorm();
+    return (std::min)(first, second) < Scalar(0.5) ||
+           (along < 0 && along * along > Scalar(0.16) * first * second);
   }
   /// By which an increment turns a node [rad].
   static Scalar turn(const Node& node, const Increment& x) noexcept {
