@@ -80,7 +80,8 @@ class PairEquilibrium {
           solver.solve(system_, 1, pass == 0 ? &curvature_[std::size_t(kind_)] : &unknown);
       solves_ += report.solves;
       if (report.status != Status::ok) {
-        system_.restore(), ++lost_;
+        system_.restore();
+        if (lost_++ == 0 && system_.rough() && left() > 0) return settle();
         return failure_ = report.status, Outcome::lost;
       }
       const Look look = look_around(system_);
@@ -154,8 +155,11 @@ class PairEquilibrium {
 
  private:
   // Of the stiffness by which friction is found, one after the other has led nowhere: by turns softer and stiffer leads somewhere soonest.
-  static constexpr std::array<RubGuess, 4> guesses{
-      {{1, RubGuess::slips}, {1. / 30, RubGuess::sticks}, {3, RubGuess::slips}, {1e-3, RubGuess::sticks}}};
+  static constexpr std::array<RubGuess, 5> guesses{{{1, RubGuess::slips},
+                                                    {1, RubGuess::learns},
+                                                    {1. / 30, RubGuess::sticks},
+                                                    {3, RubGuess::slips},
+                                                    {1e-3, RubGuess::sticks}}};
   static constexpr double apart = 1e-3;    // of a reach
   static constexpr double in_time = 1e-9;  // of the force: errors of steps add up
   static constexpr int most_tries = 7;     // of friction to settle

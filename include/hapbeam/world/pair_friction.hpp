@@ -8,7 +8,8 @@
 //   δn = G (δf - S (t₁ δs₁ - t₂ δs₂) - m δλ),   G = (λ - S H)⁻¹,   δλ = δf · n + t · δn
 //
 // Sticks: T = k e while that is within the bound B = μλ.  Slides: T = B d, S = B/l (1 - d dᵀ).  T and e of the last answer say which, before each linear solve:
-// t + q (e - t/k) has the size B + q l and the direction d.  Any stiffness q leads to the same; one of the rods, as contacts feel it, does so soonest.
+// t + q (e - t/k) has the size B + q l and the direction d.  Any stiffness q leads to the same; one of the rods, as contacts feel it, does so soonest, or where
+// that leads nowhere as two answers differ: along itself a rod is far stiffer.
 // Two that stick on one stiff rod push each other above their bounds: of all that stuck only those begin to slide that are nearly as many times above as the one
 // that is most.
 // What sticks has the t of the last answer; what the law has it more is taken from δf in that.
@@ -36,8 +37,9 @@ inline Friction friction_of(const Friction& a, const Friction& b) noexcept {
 
 /// How a pair is taken to rub until a solve tells more.
 struct RubGuess {
-  double scale;                     // of q
-  enum { slips, sticks } at_first;  // what has not rubbed yet; it slips freely
+  double scale;  // of q
+  /// What has not rubbed yet, which slips freely, and what is known of q then.
+  enum { slips, sticks, learns } at_first;
 };
 
 class PairFriction {
@@ -61,7 +63,7 @@ class PairFriction {
   /// Whether it slides freely in the next linear solve: until a first equilibrium, and in the first solve of what has not rubbed yet.
   bool is_free() const noexcept {
     const bool is_new = !state_.slides && state_.skin.isZero(0);
-    return none() || !state_.known || (is_new && begins() && guess_.at_first == RubGuess::slips);
+    return none() || !state_.known || (is_new && begins() && guess_.at_first != RubGuess::sticks);
   }
   /// Whether look() begins it.
   bool begins() const noexcept { return mode_ == Mode::begins; }
@@ -81,6 +83,7 @@ class PairFriction {
     const bool first = begins(), free = is_free();
     if (first) {
       before_ = state_.known ? state_ : now_;
+      answers_ = 0, learned_ = 0;
       felt_ = state_.force, most_ = state_.slides ? state_.sliding : state_.sticking;
     }
     const bool stuck = mode_ == Mode::sticks;
@@ -89,14 +92,15 @@ class PairFriction {
     felt_ -= normal.dot(felt_) * normal;
     shear_ = now_.carried(state_.skin, before_) + now_.slip(before_, 1, reach_);
     bound_ = most_ * (std::max)(force, 0.0);
-    const double lends = guess_.scale * element_;
+    if (guess_.at_first == RubGuess::learns) learn();
+    const double lends = (std::max)(guess_.scale * element_, learned_);
     const Vector more_shear = lends * (shear_ - felt_ / stiffness_), lent = felt_ + more_shear;
     const double size = std::sqrt(lent.squaredNorm()), felt = std::sqrt(felt_.squaredNorm());
     // What slid goes on as far.
     const bool goes_on = first && state_.slides && felt > 0;
     off_ = more_shear.squaredNorm();
     if (!goes_on && !(size > (1 + more) * bound_)) return stick();
-    if (stuck && guess_.at_first == RubGuess::slips) exceeds_ = size / bound_;
+    if (stuck && guess_.at_first != RubGuess::sticks) exceeds_ = size / bound_;
     mode_ = Mode::slides;
     way_ = goes_on ? Vector(felt_ / felt) : Vector(lent / size);
     const double slip = goes_on ? state_.slip : (size - bound_) / lends;
@@ -224,6 +228,15 @@ class PairFriction {
   using Place = FrictionPlace<double, 3>;
   enum class Mode { begins, free, sticks, slides };
 
+  /// How rods yield to T is what two answers differ by, but for the first, to which the hands have gone.
+  void learn() noexcept {
+    constexpr double least = 1e-2;  // of the bound
+    const Vector more = felt_ - last_.force, moved = shear_ - last_.shear;
+    const double square = more.squaredNorm(), yields = -more.dot(moved);
+    if (answers_++ > 1 && square > least * least * bound_ * bound_ && yields > 0)
+      learned_ = std::clamp(square / yields, learned_, stiffness_);
+    last_ = {felt_, shear_};
+  }
   static double determinant(const Matrix& A) noexcept { return A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0); }
   /// G, which has a pole where the slip of a step is about μR.
   void invert(double force) noexcept {
@@ -251,6 +264,11 @@ class PairFriction {
   Vector gone_ = Vector::Zero();
   std::array<Vector, 2> tangents_;  // r'
   int negative_ = 0;
+  struct {
+    Vector force, shear;
+  } last_;              // answer, and where it led
+  int answers_ = 0;     // in this step
+  double learned_ = 0;  // q [N/m]
 };
 
 }  // namespace hapbeam::detail

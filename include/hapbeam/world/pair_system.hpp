@@ -117,6 +117,8 @@ class PairSystem : public WorldPairs<Element> {
   }
   double increment() const noexcept { return increment_; }
   int negative_pivots() const noexcept { return negative_; }
+  /// Whether friction acts.
+  bool rough() const noexcept { return rough_; }
   double turn() const noexcept {
     double largest = 0;
     each([&](const Body& body) { largest = (std::max)(largest, body.turn()); });
