@@ -12,26 +12,25 @@
 #include <cmath>
 #include <limits>
 
-#include <hapbeam/body/rod_inner_contact.hpp>
+#include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/body/rod_spot.hpp>
-#include <hapbeam/body/stacked.hpp>
 #include <hapbeam/element/rod/carried_frame.hpp>
 
 namespace hapbeam::detail {
 
 /// Base class of TouchedRod.   @tparam Most  contacts
 template <class Element, typename S, int Most>
-class RodBubbles : protected Stacked<S, Most> {
-  using Base = Stacked<S, Most>;
-
+class RodBubbles {
  protected:
   static constexpr int unknowns = Element::unknowns;
   using Contact = InnerContact<S, 3>;
-  using Column = VectorOf<S, 2 * unknowns>;
-  using Base::at, Base::count, Base::count_, Base::put, Base::size, Base::times, Base::vector,
-      typename Base::Matrix, typename Base::Square, typename Base::Stack, typename Base::Vector;
   using Inner = typename Element::template Inner<S>;
-  using ByPlace = typename RodSpot<S>::ByPlace;
+  using Vector = VectorOf<S, 3>;
+  using Matrix = Eigen::Matrix<S, 3, 3>;
+  /// Vectors of the contacts one behind the other, and matrices by two of them.  Where there may be one alone a compiler knows their size.
+  static constexpr int numbers = Most == 1 ? 3 : Eigen::Dynamic;
+  using Stack = Eigen::Matrix<S, numbers, 1, 0, 3 * Most, 1>;
+  using Square = Eigen::Matrix<S, numbers, numbers, 0, 3 * Most, 3 * Most>;
 
  public:
   /// @param rod  RodElements   @param e  of its elements
@@ -51,32 +50,41 @@ class RodBubbles : protected Stacked<S, Most> {
   /// What contacts bend of it alone, as it lies [J].
   S strain_energy() noexcept {
     look(), fill();
-    S sum = 0;
-    for (int i = 0; i < size(); ++i) sum += force_[at(i)] * yield_[at(i)] / 2;
-    return sum;
+    return force_.dot(yield_) / 2;
   }
 
  protected:
   /// The curve beside a contact.
-  struct Spot : YieldingSpot<Element, S> {
+  struct Spot : RodSpot<Element, S> {
     Matrix curved;  // D''
     Vector turns;   // moment with which C turns with the section, crossed with u
 
-    Vector move(const Column& by) const noexcept {
+    Vector move(const typename Spot::Column& by) const noexcept {
       Vector sum = this->h[0].value * by.template segment<3>(0);
-      for (int q = 1; q < 4; ++q) sum += this->h[q].value * by.template segment<3>(start(q));
+      for (int q = 1; q < 4; ++q) sum += this->h[q].value * by.template segment<3>(this->start(q));
       return sum;
     }
     /// What a force there is on the nodes.
-    Column on_nodes(const Vector& force) const noexcept {
-      Column on;
-      for (int q = 0; q < 4; ++q) on.template segment<3>(start(q)) = this->h[q].value * force;
+    typename Spot::Column on_nodes(const Vector& force) const noexcept {
+      typename Spot::Column on;
+      for (int q = 0; q < 4; ++q) on.template segment<3>(this->start(q)) = this->h[q].value * force;
       if constexpr (unknowns == 7) on[6] = on[13] = 0;
       return on;
     }
   };
-  /// Where r1, r1', r2 and r2' stand among the unknowns.
-  static constexpr int start(int q) noexcept { return RodSpot<S>::start(unknowns, q); }
+  using Column = typename Spot::Column;
+  using ByPlace = typename Spot::ByPlace;
+
+  static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+  int count() const noexcept { return Most == 1 ? 1 : count_; }
+  int size() const noexcept { return 3 * count(); }
+  /// Of contact k.
+  template <class Numbers>
+  static auto of(Numbers& all, int k) noexcept {
+    return all.template segment<3>(3 * k);
+  }
+  static auto block(Square& all, int i, int j) noexcept { return all.template block<3, 3>(3 * i, 3 * j); }
+  static Vector vector(const Stack& all, int k) noexcept { return all.template segment<3>(3 * k); }
   /// Whether it yields alike along both axes of its section.
   bool even() const noexcept { return Spot::even(*p_); }
   /// Of what the second derivative of the distance is across.
@@ -136,60 +144,60 @@ class RodBubbles : protected Stacked<S, Most> {
 
   /// Compliances, forces, and what they make of the curve, of all contacts as they lie.
   void fill() noexcept {
+    const int n = size();
+    force_.resize(n), slope_.setZero(n), C_.resize(n, n);
     for (int k = 0; k < count(); ++k) {
       Spot& spot = spots_[at(k)];
       const Contact& contact = *contacts_[at(k)];
-      const Vector force = contact.force * contact.normal + contact.friction;
-      for (int i = 0; i < 3; ++i) force_[at(3 * k + i)] = force[i];
+      of(force_, k) = contact.force * contact.normal + contact.friction;
       // Along itself the curve yields to nothing.
       spot.look_at_section(*p_, *a_, *b_, inner_, !contact.rough && contact.kind != Contact::Kind::along);
     }
-    slope_ = {};
     const S soft = p_->softest();
-    for (int k = 0; k < ways(); ++k) {
-      J_[at(k)] = {};
-      for (auto& twice : turned_twice_[at(k)]) twice = 0;
-    }
+    for (int k = 0; k < ways(); ++k) J_[at(k)].setZero(n), turned_twice_[at(k)].fill(0);
     for (int i = 0; i < count(); ++i) {
-      const ByPlace& own = spots_[at(i)].g;
+      const Spot& spot = spots_[at(i)];
+      const ByPlace& own = spot.g;
       const Matrix shape = between(i, i);
       const Vector force = vector(force_, i), moved = shape * force;
-      const S half = force.dot(moved) / 2,
-              flat = spots_[at(i)].t.dot(Vector(spots_[at(i)].curved * spots_[at(i)].t));
-      contacts_[at(i)]->wraps =
-          flat > 0 ? -contacts_[at(i)]->normal.dot(spots_[at(i)].k + spots_[at(i)].bend * moved) / flat
-                   : S(0);
-      put(C_, i, i, own.value * shape);
-      add_to(J_[at(i)], i, own.by(0) * moved), add_to(slope_, i, own.by(0) / 2 * moved);
+      const S half = force.dot(moved) / 2, flat = spot.t.dot(Vector(spot.curved * spot.t));
+      Contact& contact = *contacts_[at(i)];
+      contact.wraps = flat > 0 ? -contact.normal.dot(spot.k + spot.bend * moved) / flat : S(0);
+      block(C_, i, i) = own.value * shape;
+      of(J_[at(i)], i) += own.by(0) * moved, of(slope_, i) += own.by(0) / 2 * moved;
       turn_twice(i, i, half * own.by(0, 0));
       if (p_->taut) {
-        add_to(J_[at(count())], i, soft * own.by(1) * moved);
+        of(J_[at(count())], i) += soft * own.by(1) * moved;
         turn_twice(i, count(), half * soft * own.by(1, 0));
         turn_twice(count(), count(), half * soft * soft * own.by(1, 1));
       }
       for (int j = 0; j < i; ++j) {
-        const S x = contacts_[at(i)]->s - a_->s, y = contacts_[at(j)]->s - a_->s;
+        const S x = contact.s - a_->s, y = contacts_[at(j)]->s - a_->s;
         const int first = x <= y ? i : j, second = first == i ? j : i;
-        const auto to = RodSpot<S>::between(*p_, inner_.tension.value, (std::min)(x, y), (std::max)(x, y));
+        const auto to = Spot::between(*p_, inner_.tension.value, (std::min)(x, y), (std::max)(x, y));
         const Matrix both = between(first, second);
-        put(C_, first, second, to.value * both), put(C_, second, first, to.value * both.transpose());
-        bend(first, first, second, to.by(0) * both);
-        bend(second, second, first, to.by(1) * both.transpose());
+        const Vector on_first = both * vector(force_, second),
+                     on_second = both.transpose() * vector(force_, first);
+        block(C_, first, second) = to.value * both, block(C_, second, first) = to.value * both.transpose();
+        // As a place moves, or N grows: what C has of CF, and of ½ F · CF.
+        const auto bend = [&](int way, S by) {
+          of(J_[at(way)], first) += by * on_first, of(J_[at(way)], second) += by * on_second;
+        };
+        bend(first, to.by(0)), bend(second, to.by(1));
         // How steep the force at the other makes the curve.
-        add_to(slope_, first, to.by(0) * both * vector(force_, second));
-        add_to(slope_, second, to.by(1) * both.transpose() * vector(force_, first));
-        const S product = vector(force_, first).dot(Vector(both * vector(force_, second)));
+        of(slope_, first) += to.by(0) * on_first, of(slope_, second) += to.by(1) * on_second;
+        const S product = vector(force_, first).dot(on_first);
         turn_twice(first, first, product * to.by(0, 0)), turn_twice(second, second, product * to.by(1, 1));
         turn_twice(first, second, product * to.by(1, 0));
         if (p_->taut) {
-          bend(count(), first, second, soft * to.by(2) * both);
+          bend(count(), soft * to.by(2));
           turn_twice(first, count(), product * soft * to.by(2, 0));
           turn_twice(second, count(), product * soft * to.by(2, 1));
           turn_twice(count(), count(), product * soft * soft * to.by(2, 2));
         }
       }
     }
-    yield_ = times(C_, force_);
+    yield_ = C_.lazyProduct(force_);
     for (int k = 0; k < count(); ++k) contacts_[at(k)]->tangent = spots_[at(k)].t + vector(slope_, k);
   }
   /// How two places yield to each other, in units of a piece's.
@@ -200,13 +208,6 @@ class RodBubbles : protected Stacked<S, Most> {
     turned_twice_[at(i)][at(j)] += by;
     if (i != j) turned_twice_[at(j)][at(i)] += by;
   }
-  /// As place k moves, or N grows: what C between two places has of CF, and of ½ F · CF.
-  void bend(int k, int i, int j, const Matrix& by) noexcept {
-    add_to(J_[at(k)], i, by * vector(force_, j)), add_to(J_[at(k)], j, by.transpose() * vector(force_, i));
-  }
-  static void add_to(Stack& to, int k, const Vector& v) noexcept {
-    for (int c = 0; c < 3; ++c) to[at(3 * k + c)] += v[c];
-  }
 
   static constexpr std::size_t most_ways = std::size_t(Most + 1);
   const RodNode<S>*a_, *b_;
@@ -214,7 +215,7 @@ class RodBubbles : protected Stacked<S, Most> {
   Inner inner_;  // ψ and N, as of the last equations
   std::array<Contact*, std::size_t(Most)> contacts_{};
   std::array<int, std::size_t(Most)> ids_{};
-  int seen_ = 0;  // so many of them have been looked at
+  int count_ = 0, seen_ = 0;  // how many there are, and have been looked at
   std::array<Spot, std::size_t(Most)> spots_;
   Square C_;
   Stack force_, yield_, slope_;                                   // F, CF, how steep that is

@@ -32,12 +32,11 @@ template <class Element, typename S, int Most>
 class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base = RodBubbles<Element, S, Most>;
   using Base::at, Base::block, Base::C_, Base::contacts_, Base::count, Base::even, Base::fill, Base::force_,
-      Base::ids_, Base::inner_, Base::inverse, Base::J_, Base::most_ways, Base::p_, Base::parallel,
-      Base::product, Base::put, Base::seen_, Base::size, Base::spots_, Base::start, Base::times,
-      Base::turned_twice_, Base::unknowns, Base::vector, Base::ways, Base::yield_, typename Base::Column,
-      typename Base::Contact, typename Base::Matrix, typename Base::Spot, typename Base::Square,
-      typename Base::Stack, typename Base::Vector;
-  using Tangent = Eigen::Matrix<S, 2 * unknowns, 2 * unknowns>;
+      Base::ids_, Base::inner_, Base::J_, Base::most_ways, Base::of, Base::p_, Base::parallel, Base::seen_,
+      Base::size, Base::spots_, Base::turned_twice_, Base::unknowns, Base::vector, Base::ways, Base::yield_,
+      typename Base::ByPlace, typename Base::Column, typename Base::Contact, typename Base::Matrix,
+      typename Base::Spot, typename Base::Square, typename Base::Stack, typename Base::Vector;
+  using Tangent = typename Spot::Tangent;
 
  public:
   using Base::add, Base::Base, Base::look, Base::strain_energy;
@@ -80,26 +79,20 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       rub(ids_[at(k)]);
     }
     fill();
-    const int n = size();
     // H of each, (I + C H)⁻¹, and what comes of them.
-    Square H{};
+    Square H = Square::Zero(size(), size());
     for (int k = 0; k < count(); ++k)
-      put(H, k, k, contacts_[at(k)]->friction_tangent - contacts_[at(k)]->force * spots_[at(k)].curved);
-    Square CH = product(C_, H);
-    for (int i = 0; i < n; ++i) CH[at(i)][at(i)] += 1;
-    A_ = inverse(CH);
-    H_ = product(H, A_);
-    AC_ = product(A_, C_);
-    S energy = 0;
-    for (int i = 0; i < n; ++i) off_[at(i)] = -yield_[at(i)];
-    for (int k = 0; k < count(); ++k)
-      for (int i = 0; i < 3; ++i) off_[at(3 * k + i)] += contacts_[at(k)]->bubble[i];
-    const Stack He = times(H_, off_);
-    for (int i = 0; i < n; ++i)
-      energy += force_[at(i)] * (yield_[at(i)] / 2 + off_[at(i)]) + off_[at(i)] * He[at(i)] / 2;
+      block(H, k, k) = contacts_[at(k)]->friction_tangent - contacts_[at(k)]->force * spots_[at(k)].curved;
+    A_ = C_.lazyProduct(H);
+    A_.diagonal().array() += 1;
+    invert(A_);
+    H_ = H.lazyProduct(A_), AC_ = A_.lazyProduct(C_);
+    off_ = -yield_;
+    for (int k = 0; k < count(); ++k) of(off_, k) += contacts_[at(k)]->bubble;
+    const Stack He = H_.lazyProduct(off_);
     spread(He, H, r, K);
     condense_ways(r, K);
-    return energy;
+    return force_.dot(yield_) / 2 + force_.dot(off_) + off_.dot(He) / 2;
   }
   /// By how much Π changes as all that is condensed finds its own, but for what the nodes and forces make of that [J].
   S local_change() const noexcept { return change_; }
@@ -150,24 +143,19 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       contact.waits = false;
     }
     const int n = size();
-    Stack w{}, z;
+    Stack w(n), turned(n);
     for (int k = 0; k < count(); ++k) {
-      const Vector moved = spots_[at(k)].move(by);
-      for (int i = 0; i < 3; ++i) w[at(3 * k + i)] = moved[i];
+      of(w, k) = spots_[at(k)].move(by);
+      of(turned, k) = forces[at(k)] * contacts_[at(k)]->normal;
     }
-    for (int i = 0; i < n; ++i) z[at(i)] = w[at(i)] - off_[at(i)];
-    Stack turned{};
-    for (int k = 0; k < count(); ++k)
-      for (int c = 0; c < 3; ++c) turned[at(3 * k + c)] = contacts_[at(k)]->normal[c] * forces[at(k)];
-    for (int k = 0; k < ways(); ++k)
-      for (int i = 0; i < n; ++i)
-        z[at(i)] += J_[at(k)][at(i)] * goes[at(k)], turned[at(i)] += zeta_[at(k)][at(i)] * goes[at(k)];
-    z = times(A_, z);
-    const Stack yields = times(AC_, turned);
-    for (int i = 0; i < n; ++i) z[at(i)] += yields[at(i)];
+    const Stack across = w - off_;
+    Stack z = A_.lazyProduct(across);
+    z += AC_.lazyProduct(turned);
+    for (int k = 0; k < ways(); ++k) z += goes[at(k)] * yields_way_[at(k)];
+    z -= w;
     for (int k = 0; k < count(); ++k) {
       Contact& contact = *contacts_[at(k)];
-      for (int i = 0; i < 3; ++i) contact.bubble[i] += z[at(3 * k + i)] - w[at(3 * k + i)];
+      contact.bubble += vector(z, k);
       // Of friction that begins to slide the tangent says more than its bound allows.
       const S most = 2 * (vector(yield_, k).norm() +
                           (block(C_, k, k) * contact.normal).norm() * std::abs(forces[at(k)])),
@@ -193,11 +181,9 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   static constexpr S close_by = S(1e-3);  // of the reach: from there Newton's method goes with the rest
 
   /// Adds what all contacts are to the nodes, and finds their columns and what their places are.
-  void spread(const Stack& He, const Square& H, Column& r, Tangent& K) noexcept {
-    const int n = size();
+  void spread(const Stack& He, Square& H, Column& r, Tangent& K) noexcept {
     const bool turns = turns_with_section();
-    Stack forces = He;
-    for (int i = 0; i < n; ++i) forces[at(i)] += force_[at(i)];
+    const Stack forces = force_ + He, lacks = A_.lazyProduct(off_);
     r = -on_nodes(forces);
     if constexpr (unknowns == 7) K.col(6).setZero(), K.col(13).setZero();
     for (int k = 0; k < count(); ++k) {
@@ -209,114 +195,88 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
           const Column on = spot.on_nodes(stiff.col(c));
           for (int q = 0; q < 4; ++q) {
             const Column by = spots_[at(j)].h[q].value * on;
-            if (k + j == 0) K.col(start(q) + c) = by;
-            else K.col(start(q) + c) += by;
+            if (k + j == 0) K.col(Spot::start(q) + c) = by;
+            else K.col(Spot::start(q) + c) += by;
           }
         }
       }
+      const Vector F = vector(force_, k), v = vector(yield_, k);
       spot.turns.setZero();
-      if (turns) {
-        const Vector moment = cross3(vector(yield_, k), vector(force_, k));
-        spot.turns = cross3(moment, spot.u) / spot.stretched;
-        spot.turn(moment, r);
-      }
+      if (turns) spot.turns = spot.turn(cross3(v, F), r);
       if constexpr (unknowns == 7)
-        if (!even()) {
-          // By how much it grows as the section twists.
-          const Vector F = vector(force_, k);
-          const Vector turned = cross3<S>(spot.u, vector(yield_, k)) - block(C_, k, k) * cross3<S>(spot.u, F);
-          const S rise = spot.u.dot(cross3<S>(turned, F)), x = spot.x, y = 1 - x;
-          K(6, 6) -= y * y * rise, K(13, 13) -= x * x * rise;
-          K(6, 13) -= x * y * rise, K(13, 6) -= x * y * rise;
-        }
+        if (!even()) spot.twist(F, v, block(C_, k, k), K);
     }
-    std::array<Stack, std::size_t(Most)> normals;  // M n, M = I - H C
-    for (int k = 0; k < count(); ++k) {
-      Spot& spot = spots_[at(k)];
-      const Contact& contact = *contacts_[at(k)];
-      normals[at(k)] = lessened(k, contact.normal);
-      Column& column = columns_[at(k)] = -on_nodes(normals[at(k)]);
-      // The moment with which C turns grows with the force.
-      if (turns) {
-        const Vector rises = cross3<S>(block(C_, k, k) * contact.normal, vector(force_, k)) +
-                             cross3<S>(vector(yield_, k), contact.normal);
-        spot.turn(rises, column);
-      }
-      S off = contact.gap;
-      for (int c = 0; c < 3; ++c)
-        for (int i = 0; i < n; ++i) off -= contact.normal[c] * A_[at(3 * k + c)][at(i)] * off_[at(i)];
-      residual_[at(k)] = -off;
-      for (int j = 0; j < count(); ++j) {
-        const Vector there = block(AC_, k, j) * contacts_[at(j)]->normal;
-        yields_[at(k)][at(j)] = -contact.normal.dot(there);
-      }
-    }
-    // Of the ways: r' and ζ.
-    std::array<Stack, most_ways> moves{};
-    zeta_ = {};
     for (int k = 0; k < count(); ++k) {
       const Spot& spot = spots_[at(k)];
-      place(moves[at(k)], k, spot.t);
-      place(zeta_[at(k)], k, contacts_[at(k)]->force * (spot.curved * spot.t));
+      const Vector& normal = contacts_[at(k)]->normal;
+      // M n, M = I - H C = Aᵀ, for H and C are symmetric.
+      Stack pushes(size());
+      for (int j = 0; j < count(); ++j) of(pushes, j) = block(A_, k, j).transpose() * normal;
+      Column& column = columns_[at(k)] = -on_nodes(pushes);
+      // The moment with which C turns grows with the force.
+      if (turns)
+        spot.turn(
+            cross3<S>(block(C_, k, k) * normal, vector(force_, k)) + cross3<S>(vector(yield_, k), normal),
+            column);
+      residual_[at(k)] = normal.dot(vector(lacks, k)) - contacts_[at(k)]->gap;
+      for (int j = 0; j < count(); ++j)
+        yields_[at(k)][at(j)] = -normal.dot(Vector(block(AC_, k, j) * contacts_[at(j)]->normal));
+    }
+    std::array<Stack, most_ways> moves, zeta;  // r' and ζ
+    for (int i = 0; i < ways(); ++i) moves[at(i)].setZero(size()), zeta[at(i)].setZero(size());
+    for (int k = 0; k < count(); ++k) {
+      const Spot& spot = spots_[at(k)];
+      of(moves[at(k)], k) = spot.t;
+      of(zeta[at(k)], k) = contacts_[at(k)]->force * (spot.curved * spot.t);
       if (!p_->taut) continue;
-      place(moves[at(count())], k, spot.by_N);
-      place(zeta_[at(count())], k, -(block(H, k, k) * spot.by_N));
+      of(moves[at(count())], k) = spot.by_N;
+      of(zeta[at(count())], k) = -(block(H, k, k) * spot.by_N);
     }
-    for (int i = 0; i < ways(); ++i) {
-      Way& way = ways_[at(i)];
-      const bool is_place = i < count();
-      const Stack &bends = J_[at(i)], &zeta = zeta_[at(i)];
-      Stack steep{};  // M ζ - H C'F
-      for (int k = 0; k < n; ++k)
-        for (int c = 0; c < n; ++c) steep[at(c)] += A_[at(k)][at(c)] * zeta[at(k)];
-      const Stack stiff = times(H_, bends);
-      for (int c = 0; c < n; ++c) steep[at(c)] -= stiff[at(c)];
-      way.residual = is_place ? -spots_[at(i)].turns.dot(spots_[at(i)].k) : inner_.tension.residual;
-      for (int c = 0; c < n; ++c)
-        way.residual += steep[at(c)] * off_[at(c)] - force_[at(c)] * bends[at(c)] / 2;
-      way.by_nodes = -on_nodes(steep);
-      if (!is_place) way.by_nodes += inner_.tension.row;
-      for (int k = 0; k < count(); ++k) {
-        if (is_place && k != i) continue;
-        const Spot& spot = spots_[at(k)];
-        // What slides has its friction at another place of the curve.
-        const Vector pushes =
-            is_place ? Vector(contacts_[at(k)]->force * contacts_[at(k)]->normal) : vector(force_, k);
-        way.residual -= pushes.dot(vector(moves[at(i)], k));
-        if (!is_place) way.residual -= spot.turns.dot(spot.turned_by_N);
-        for (int q = 0; q < 4; ++q)
-          way.by_nodes.template segment<3>(start(q)) -=
-              (is_place ? spot.h[q].by(0) : p_->softest() * spot.h[q].by(1)) * pushes;
-      }
-      const Stack Azeta = times(AC_, zeta);
-      for (int j = 0; j < ways(); ++j) {
-        const Stack& other = zeta_[at(j)];
-        S sum = -turned_twice_[at(i)][at(j)];
-        for (int k = 0; k < count(); ++k) {
-          const Spot& spot = spots_[at(k)];
-          const Vector pushes = contacts_[at(k)]->force * contacts_[at(k)]->normal;
-          if (i == k && j == k) sum -= pushes.dot(spot.k);
-          else if ((i == k && j == count()) || (i == count() && j == k)) sum -= pushes.dot(spot.turned_by_N);
-          else if (i == count() && j == count()) sum -= vector(force_, k).dot(spot.by_N_twice);
-        }
-        const int first = (std::min)(i, j), second = (std::max)(i, j);
-        for (int c = 0; c < n; ++c) {
-          sum -= moves[at(second)][at(c)] * zeta_[at(first)][at(c)] + Azeta[at(c)] * other[at(c)];
-          for (int m = 0; m < n; ++m)
-            sum -= zeta[at(c)] * A_[at(c)][at(m)] * J_[at(j)][at(m)] +
-                   other[at(c)] * A_[at(c)][at(m)] * bends[at(m)];
-          sum += J_[at(j)][at(c)] * stiff[at(c)];
-        }
-        way.by_way[at(j)] = sum;
-      }
-      if (!is_place) way.by_way[at(i)] += inner_.tension.stiffness;
-      for (int j = 0; j < count(); ++j) {
-        const Vector& normal = contacts_[at(j)]->normal;
-        S by = -vector(moves[at(i)], j).dot(normal) - vector(Azeta, j).dot(normal);
-        for (int c = 0; c < n; ++c) by -= bends[at(c)] * normals[at(j)][at(c)];
-        way.by_force[at(j)] = by;
-      }
+    for (int i = 0; i < ways(); ++i) find_way(i, moves, zeta);
+  }
+  /// @param moves, zeta  r' and ζ of all ways
+  void find_way(int i, const std::array<Stack, most_ways>& moves,
+                const std::array<Stack, most_ways>& zeta) noexcept {
+    Way& way = ways_[at(i)];
+    const bool is_place = i < count();
+    const Stack& bends = J_[at(i)];
+    Stack steep = A_.transpose().lazyProduct(zeta[at(i)]);  // M ζ - H C'F
+    steep -= H_.lazyProduct(bends);
+    Stack& yields = yields_way_[at(i)] = A_.lazyProduct(bends);
+    yields += AC_.lazyProduct(zeta[at(i)]);
+    way.residual = is_place ? -spots_[at(i)].turns.dot(spots_[at(i)].k) : inner_.tension.residual;
+    way.residual += steep.dot(off_) - force_.dot(bends) / 2;
+    way.by_nodes = -on_nodes(steep);
+    if (!is_place) way.by_nodes += inner_.tension.row;
+    // What slides has its friction at another place of the curve.
+    const auto along_normal = [&](int k) {
+      return Vector(contacts_[at(k)]->force * contacts_[at(k)]->normal);
+    };
+    for (int k = 0; k < count(); ++k) {
+      if (is_place && k != i) continue;
+      const Spot& spot = spots_[at(k)];
+      const Vector pushes = is_place ? along_normal(k) : vector(force_, k);
+      way.residual -= pushes.dot(vector(moves[at(i)], k));
+      if (!is_place) way.residual -= spot.turns.dot(spot.turned_by_N);
+      spot.pull(pushes, way.by_nodes,
+                [&](const ByPlace& w) { return is_place ? w.by(0) : p_->softest() * w.by(1); });
     }
+    for (int j = 0; j < ways(); ++j) {
+      const int first = (std::min)(i, j), second = (std::max)(i, j);
+      S sum = -turned_twice_[at(i)][at(j)] - moves[at(second)].dot(zeta[at(first)]) - steep.dot(J_[at(j)]) -
+              zeta[at(j)].dot(yields);
+      if (second < count()) {
+        if (i == j) sum -= along_normal(i).dot(spots_[at(i)].k);
+      } else if (first < count()) {
+        sum -= along_normal(first).dot(spots_[at(first)].turned_by_N);
+      } else {
+        for (int k = 0; k < count(); ++k) sum -= vector(force_, k).dot(spots_[at(k)].by_N_twice);
+        sum += inner_.tension.stiffness;
+      }
+      way.by_way[at(j)] = sum;
+    }
+    for (int j = 0; j < count(); ++j)
+      way.by_force[at(j)] = -contacts_[at(j)]->normal.dot(vector(moves[at(i)], j) + vector(yields, j));
   }
   /// Whether C is not the same to all sides.
   bool turns_with_section() const noexcept {
@@ -342,19 +302,12 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         if (!way.sought || contact.stays) continue;
         if (contact.sharp) turned_ += contact.force > 0 ? 1 : -1;
       } else {
-        // Without contacts it has been condensed before.
-        const S over = 1 / inner_.tension.stiffness;
-        r += (inner_.tension.residual * over) * inner_.tension.row;
-        K += (over * inner_.tension.row) * inner_.tension.row.transpose();
-        const auto lacks = [&](S residual, S stiffness) { return (std::max)(-residual / stiffness, S(0)); };
-        stiffen<unknowns>(
-            *p_, *Base::a_, *Base::b_,
-            lacks(way.residual, way.stiff) - lacks(inner_.tension.residual, inner_.tension.stiffness), K);
+        Spot::release(*p_, *Base::a_, *Base::b_, inner_.tension, way.residual, way.stiff, r, K);
       }
       const S over = 1 / way.stiff;
       change_ -= way.residual * way.residual * over / 2;
       r -= (way.residual * over) * way.by_nodes;
-      K -= (over * way.by_nodes) * way.by_nodes.transpose();
+      K -= (over * way.by_nodes).lazyProduct(way.by_nodes.transpose());
       for (int k = 0; k < count(); ++k) {
         columns_[at(k)] -= (way.by_force[at(k)] * over) * way.by_nodes;
         residual_[at(k)] -= way.by_force[at(k)] * over * way.residual;
@@ -378,21 +331,25 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     return sum;
   }
 
-  static void place(Stack& to, int k, const Vector& v) noexcept {
-    for (int c = 0; c < 3; ++c) to[at(3 * k + c)] = v[c];
-  }
-  /// (I - H C) of a vector of contact k:  Aᵀ, for H and C are symmetric.
-  Stack lessened(int k, const Vector& v) const noexcept {
-    Stack sum{};
-    for (int i = 0; i < size(); ++i)
-      for (int c = 0; c < 3; ++c) sum[at(i)] += A_[at(3 * k + c)][at(i)] * v[c];
-    return sum;
+  /// By Gauss and Jordan.  I + C H is near I: what a bubble bends is small beside the reach.
+  static void invert(Square& a) noexcept {
+    for (int p = 0; p < a.rows(); ++p) {
+      const S over = 1 / a(p, p);
+      a(p, p) = 1;
+      a.row(p) *= over;
+      for (int i = 0; i < a.rows(); ++i) {
+        if (i == p) continue;
+        const S part = a(i, p);
+        a(i, p) = 0;
+        a.row(i) -= part * a.row(p);
+      }
+    }
   }
 
   Square A_, H_, AC_;
   Stack off_;  // v - CF
   std::array<Way, most_ways> ways_;
-  std::array<Stack, most_ways> zeta_;
+  std::array<Stack, most_ways> yields_way_;  // A (C'F + C ζ) of each
   std::array<Column, std::size_t(Most)> columns_;
   std::array<S, std::size_t(Most)> residual_{};
   std::array<std::array<S, std::size_t(Most)>, std::size_t(Most)> yields_{};

@@ -32,11 +32,11 @@ class PairSide {
   static constexpr int unknowns = Chain::unknowns;
   using Vector = VectorOf<double, 3>;
   using Matrix = Eigen::Matrix<double, 3, 3>;
-  using Tangent = Eigen::Matrix<double, 2 * unknowns, 2 * unknowns>;
-  using Spot = YieldingSpot<typename Chain::Element, double>;
 
  public:
-  using Residual = VectorOf<double, 2 * unknowns>;
+  using Spot = RodSpot<typename Chain::Element, double>;
+  using Residual = typename Spot::Column;
+  using Tangent = typename Spot::Tangent;
   using Column = typename Chain::Assembler::Column;
 
   explicit PairSide(int elements)
@@ -77,24 +77,18 @@ class PairSide {
       T = sign * pair->friction.force(), F += T;
       drags.fill(0);
       b[4].setZero();
-      pull(T, 1, b[4]);
+      spot.pull(T, b[4], Spot::by_place);
     }
     spot_.look_at_section(p, n1, n2, own, !rough);
     const bool even = Spot::even(p) && !rough;
     const Matrix yields = Spot::shape(p, spot, spot);
     const Vector yield = yields * F, v = C * yield, rise = spot.g.by(0) * yield;
-    pull(F, 0, r);
+    spot.pull(F, r, Spot::value);
     double place = -along_n.dot(spot.t) - along_n.dot(rise) / 2;
     if (!even) {
-      spot_.turn(cross3(v, F), r);
+      spot.turn(cross3(v, F), r);
       place -= along_n.dot(turned_yield(yields, F, spot));
-      if constexpr (unknowns == 7) {
-        // By how much it grows as the section twists.
-        const Vector turned = cross3<double>(spot.u, v) - C * (yields * cross3<double>(spot.u, F));
-        const double grows = spot.u.dot(cross3<double>(turned, F)), x = spot.x, y = 1 - x;
-        K(6, 6) -= y * y * grows, K(13, 13) -= x * x * grows;
-        K(6, 13) -= x * y * grows, K(13, 6) -= x * y * grows;
-      }
+      if constexpr (unknowns == 7) spot.twist(F, v, C * yields, K);
     }
     const int here = unknown(3);
     for (int c = 0; c < 3; ++c) {
@@ -104,11 +98,11 @@ class PairSide {
       for (int d = 0; d <= c; ++d) dense(row + c, row + d) -= sign * C * moved.dot(pair->axes[at(d)]);
       if (c == 0 || !rough) dense(here, row + c) -= axis.dot(spot.t + rise);
       b[at(c)].setZero();
-      pull(axis, 0, b[at(c)]);
-      if (!even) spot_.turn(C * cross3<double>(moved, F) + cross3<double>(v, axis), b[at(c)]);
+      spot.pull(axis, b[at(c)], Spot::value);
+      if (!even) spot.turn(C * cross3<double>(moved, F) + cross3<double>(v, axis), b[at(c)]);
     }
     b[3].setZero();
-    pull(along_n, 1, b[3]);
+    spot.pull(along_n, b[3], Spot::by_place);
     pair->pull[side] = place;
     dense[here] -= place;
     dense(here, here) -= along_n.dot(spot.k) + spot.g.by(0, 0) * along_n.dot(yield) / 2;
@@ -117,7 +111,7 @@ class PairSide {
       const Vector moved = soft * spot.g.by(1) * yield;
       tension.residual -= F.dot(spot.by_N) + F.dot(moved) / 2;
       tension.stiff -= F.dot(spot.by_N_twice) + soft * soft * spot.g.by(1, 1) * F.dot(yield) / 2;
-      for (int q = 0; q < 4; ++q) tension.row.template segment<3>(start(q)) -= soft * spot.h[q].by(1) * F;
+      spot.pull(F, tension.row, [soft](const ByPlace& w) { return soft * w.by(1); });
       for (int c = 0; c < 3; ++c) by_N[at(c)] = -sign * pair->axes[at(c)].dot(spot.by_N + moved);
       if (rough) by_N[4] = -T.dot(spot.turned_by_N) - soft * spot.g.by(0, 1) * T.dot(yield) / 2;
       by_N[3] = -along_n.dot(spot.turned_by_N) - soft * spot.g.by(0, 1) * along_n.dot(yield) / 2;
@@ -152,11 +146,7 @@ class PairSide {
   template <class Parts>
   static Point point(const Parts& parts, int e, double s, const Vector& F, bool rough) noexcept {
     const RodProperties<double>& p = parts.properties(e);
-    const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
-    const auto own = parts.own(e);
-    Spot spot;
-    spot.look(p, n1, n2, own.tension.value, s - n1.s);
-    spot.look_at_section(p, n1, n2, own, !rough);
+    const Spot spot = spot_at(parts, e, parts.own(e), s, rough);
     const Matrix yields = Spot::shape(p, spot, spot);
     const Vector yield = yields * F;
     Vector t = spot.t + spot.g.by(0) / 2 * yield;
@@ -168,21 +158,27 @@ class PairSide {
   static void bend(Point& sum, const Parts& parts, int e, double s, double other, const Vector& F,
                    const std::array<bool, 2>& rough) noexcept {
     const RodProperties<double>& p = parts.properties(e);
-    const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
     const auto own = parts.own(e);
-    Spot spot[2];
-    for (int k = 0; k < 2; ++k) {
-      spot[k].look(p, n1, n2, own.tension.value, (k == 0 ? s : other) - n1.s);
-      spot[k].look_at_section(p, n1, n2, own, !rough[at(k)]);
-    }
-    const Between C = between(p, own.tension.value, (std::min)(s, other) - n1.s, (std::max)(s, other) - n1.s);
+    const Spot here = spot_at(parts, e, own, s, rough[0]), there = spot_at(parts, e, own, other, rough[1]);
+    const double from = parts.nodes()[e].s;
+    const Between C = between(p, own.tension.value, (std::min)(s, other) - from, (std::max)(s, other) - from);
     const int i = s <= other ? 0 : 1;
-    const Vector yield = Spot::shape(p, spot[0], spot[1]) * F;
+    const Vector yield = Spot::shape(p, here, there) * F;
     sum.r += C.value * yield, sum.tangent += C.by(i) * yield, sum.curvature += C.by(i, i) * yield;
   }
 
  private:
   using Between = Jet<double, 3>;  // by both places and N/EI
+  using ByPlace = typename Spot::ByPlace;
+  template <class Parts, class Inner>
+  static Spot spot_at(const Parts& parts, int e, const Inner& own, double s, bool rough) noexcept {
+    const RodProperties<double>& p = parts.properties(e);
+    const auto &n1 = parts.nodes()[e], &n2 = parts.nodes()[e + 1];
+    Spot spot;
+    spot.look(p, n1, n2, own.tension.value, s - n1.s);
+    spot.look_at_section(p, n1, n2, own, !rough);
+    return spot;
+  }
   static constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
   Vector axis(int c) const noexcept { return side == 0 ? pair->axes[at(c)] : Vector(-pair->axes[at(c)]); }
   /// How two places yield to each other, in units of shape().  Two that press at one place share what they press with as one that has a little of its own.
@@ -251,13 +247,6 @@ class PairSide {
       K.template block<1, 3>(t + 3, t) += mixed.transpose();
       K(t + 3, t + 3) += u.dot(H * u);
     }
-  }
-  /// Where r1, r1', r2 and r2' stand among the unknowns.
-  static constexpr int start(int q) noexcept { return Spot::start(unknowns, q); }
-  /// Takes off a force there, or one along how the place moves.
-  void pull(const Vector& force, int derivative, Residual& of) const noexcept {
-    for (int q = 0; q < 4; ++q)
-      of.template segment<3>(start(q)) -= (derivative == 0 ? spot_.h[q].value : spot_.h[q].by(0)) * force;
   }
   Vector along_n_, T_, F_;  // λ n, T and their sum, on this rod
   Spot spot_;

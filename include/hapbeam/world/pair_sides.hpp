@@ -26,8 +26,8 @@ class PairSides {
   using Assembler = typename Chain::Assembler;
   static constexpr int unknowns = Chain::unknowns, most = 2 * most_pairs;
   using Vector = VectorOf<double, 3>;
-  using Residual = VectorOf<double, 2 * unknowns>;
-  using Tangent = Eigen::Matrix<double, 2 * unknowns, 2 * unknowns>;
+  using Residual = typename Side::Residual;
+  using Tangent = typename Side::Tangent;
 
   PairSides(int elements, PairEquations& equations) : equations_(&equations) {
     // Of a rod on itself both sides are here, and have three columns of the same unknowns.
@@ -192,14 +192,10 @@ class PairSides {
   void condense(int e, const RodProperties<double>& p, const Node& a, const Node& b, const Inner& inner,
                 const TensionRow<Residual>& tension, Residual& r, Tangent& K) noexcept {
     PairEquations& dense = *equations_;
-    const double was = 1 / inner.stiffness, over = 1 / tension.stiff;
-    r += inner.residual * was * inner.row - tension.residual * over * tension.row;
-    K += was * inner.row * inner.row.transpose() - over * tension.row * tension.row.transpose();
-    const auto lacks = [](double residual, double stiffness) {
-      return (std::max)(-residual / stiffness, 0.0);
-    };
-    stiffen<unknowns>(p, a, b,
-                      lacks(tension.residual, tension.stiff) - lacks(inner.residual, inner.stiffness), K);
+    Side::Spot::release(p, a, b, inner, tension.residual, tension.stiff, r, K);
+    const double over = 1 / tension.stiff;
+    r -= tension.residual * over * tension.row;
+    K -= (over * tension.row).lazyProduct(tension.row.transpose());
     tensions_.push_back({e, inner.value, tension});
     each_in(e, [&](Side& side) {
       for (int c = 0; c < 4; ++c) {

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include <hapbeam/body/inner_contact.hpp>
-#include <hapbeam/body/rod_inner_contact.hpp>
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/fem/contact/active_set.hpp>
 #include <hapbeam/fem/contact/obstacle_gap.hpp>
