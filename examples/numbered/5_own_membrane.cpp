@@ -1,5 +1,5 @@
 // A policy of your own: a strap that is a hundred times softer where it is pressed together than where it is stretched.
-// What a membrane has to have stands at the head of element/membrane.hpp; the compiler says what is missing.
+// What a membrane has to have stands at the head of element/von_karman.hpp; the compiler says what is missing.
 #include <cstdio>
 
 #include <hapbeam/hapbeam.hpp>

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

@@ -4,7 +4,7 @@
 //   Π = Σ V - Σ λ g                g = D - R of a circle, n · (u, w) - d of a held place
 //
 // It is for elements that are not exact under their tension: a chain of exact pieces (touched_element.hpp) would not be what they are.
-// A contact beside a node of the mesh acts on that one (contact_on_node.hpp).  Inner nodes are condensed in the order of s; the forces λ stay, as
+// A contact beside a node of the mesh acts on that one (node_front.hpp).  Inner nodes are condensed in the order of s; the forces λ stay, as
 // columns of the beam's system.
 // Real-time: noexcept, no allocation, O(contacts³).
 #pragma once
@@ -16,7 +16,6 @@
 #include <utility>
 
 #include <hapbeam/body/beam_pieces.hpp>
-#include <hapbeam/body/contact_on_node.hpp>
 #include <hapbeam/body/inner_contact.hpp>
 #include <hapbeam/body/node_front.hpp>
 #include <hapbeam/centreline.hpp>

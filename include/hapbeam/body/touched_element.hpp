@@ -18,7 +18,7 @@
 
 #include <hapbeam/body/piece_chain.hpp>
 #include <hapbeam/element/pack.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

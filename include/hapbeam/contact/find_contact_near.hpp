@@ -19,7 +19,7 @@
 #include <hapbeam/contact/find_contact.hpp>
 #include <hapbeam/contact/find_rod_contact.hpp>
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

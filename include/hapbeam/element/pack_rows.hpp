@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <hapbeam/element/pack.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

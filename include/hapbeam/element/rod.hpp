@@ -20,7 +20,7 @@
 #include <hapbeam/element/rod/rod_tangent.hpp>
 #include <hapbeam/element/rod/round_strains.hpp>
 #include <hapbeam/element/rod/round_tension.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam {
 

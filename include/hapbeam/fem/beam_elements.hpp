@@ -17,7 +17,7 @@
 #include <hapbeam/fem/section_cut.hpp>
 #include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam {
 

@@ -16,7 +16,7 @@
 #include <hapbeam/fem/mass_blocks.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

@@ -13,7 +13,7 @@
 
 #include <hapbeam/centreline.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

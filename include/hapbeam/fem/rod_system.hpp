@@ -13,12 +13,11 @@
 
 #include <hapbeam/body/touched_rod.hpp>
 #include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/rod/led_ends.hpp>
+#include <hapbeam/fem/rod/end_path.hpp>
+#include <hapbeam/fem/rod/rod_dynamics.hpp>
 #include <hapbeam/fem/rod/rod_elements.hpp>
 #include <hapbeam/fem/rod/rod_ends.hpp>
-#include <hapbeam/fem/rod/rod_inertia.hpp>
 #include <hapbeam/fem/rod/rod_motion.hpp>
-#include <hapbeam/fem/rod/viscous_rod.hpp>
 
 namespace hapbeam {
 

@@ -11,7 +11,7 @@
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/element/tension_stiffness.hpp>
 #include <hapbeam/rod_centreline.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam {
 

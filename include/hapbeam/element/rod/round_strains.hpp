@@ -6,7 +6,7 @@
 #pragma once
 
 #include <hapbeam/element/rod/rod_properties.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

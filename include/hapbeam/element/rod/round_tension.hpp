@@ -18,7 +18,7 @@
 #include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
 #include <hapbeam/element/tension_stiffness.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

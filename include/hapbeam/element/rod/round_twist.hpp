@@ -20,7 +20,7 @@
 #include <hapbeam/element/rod/carried_frame.hpp>
 #include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

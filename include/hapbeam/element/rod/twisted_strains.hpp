@@ -11,7 +11,7 @@
 #include <hapbeam/element/rod/carried_frame.hpp>
 #include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/element/rod/twisted_core.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

@@ -20,7 +20,7 @@
 #include <hapbeam/fem/rod/rod_loads.hpp>
 #include <hapbeam/fem/rod/rod_moments.hpp>
 #include <hapbeam/fem/section_cut.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam {
 

@@ -12,7 +12,7 @@
 #include <hapbeam/fem/solver/pair_order.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/rod_centreline.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

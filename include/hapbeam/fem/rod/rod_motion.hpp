@@ -9,7 +9,7 @@
 
 #include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/rod_centreline.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include <hapbeam/fem/solver/ldlt.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

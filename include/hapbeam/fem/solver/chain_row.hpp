@@ -10,7 +10,7 @@
 #include <hapbeam/element/pack_rows.hpp>
 #include <hapbeam/fem/solver/ldlt.hpp>
 #include <hapbeam/fem/solver/pivot_by_pivot.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

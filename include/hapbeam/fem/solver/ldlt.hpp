@@ -14,7 +14,7 @@
 
 #include <hapbeam/element/pack.hpp>
 #include <hapbeam/force_model.hpp>
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include <hapbeam/unroll.hpp>
+#include <hapbeam/vectors.hpp>
 
 namespace hapbeam::detail {
 
