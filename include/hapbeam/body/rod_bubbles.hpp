@@ -154,7 +154,7 @@ class RodBubbles {
       spot.look_at_section(*p_, *a_, *b_, inner_, !contact.rough && contact.kind != Contact::Kind::along);
     }
     const S soft = p_->softest();
-    for (int k = 0; k < ways(); ++k) J_[at(k)].setZero(n), turned_twice_[at(k)].fill(0);
+    for (int k = 0; k < rows(); ++k) J_[at(k)].setZero(n), twice_[at(k)].fill(0);
     for (int i = 0; i < count(); ++i) {
       const Spot& spot = spots_[at(i)];
       const ByPlace& own = spot.g;
@@ -164,12 +164,14 @@ class RodBubbles {
       Contact& contact = *contacts_[at(i)];
       contact.wraps = flat > 0 ? -contact.normal.dot(spot.k + spot.bend * moved) / flat : S(0);
       block(C_, i, i) = own.value * shape;
-      of(J_[at(i)], i) += own.by(0) * moved, of(slope_, i) += own.by(0) / 2 * moved;
-      turn_twice(i, i, half * own.by(0, 0));
+      // What slides has its friction at another place of the curve.
+      const Vector along = contact.force * contact.normal;
+      of(J_[at(place(i))], i) += own.by(0) * moved, of(slope_, i) += own.by(0) / 2 * moved;
+      bend_twice(place(i), place(i), along.dot(spot.k) + half * own.by(0, 0));
       if (p_->taut) {
-        of(J_[at(count())], i) += soft * own.by(1) * moved;
-        turn_twice(i, count(), half * soft * own.by(1, 0));
-        turn_twice(count(), count(), half * soft * soft * own.by(1, 1));
+        of(J_[at(N())], i) += soft * own.by(1) * moved;
+        bend_twice(place(i), N(), along.dot(spot.turned_by_N) + half * soft * own.by(1, 0));
+        bend_twice(N(), N(), force.dot(spot.by_N_twice) + half * soft * soft * own.by(1, 1));
       }
       for (int j = 0; j < i; ++j) {
         const S x = contact.s - a_->s, y = contacts_[at(j)]->s - a_->s;
@@ -180,20 +182,21 @@ class RodBubbles {
                      on_second = both.transpose() * vector(force_, first);
         block(C_, first, second) = to.value * both, block(C_, second, first) = to.value * both.transpose();
         // As a place moves, or N grows: what C has of CF, and of ½ F · CF.
-        const auto bend = [&](int way, S by) {
-          of(J_[at(way)], first) += by * on_first, of(J_[at(way)], second) += by * on_second;
+        const auto bend = [&](int row, S by) {
+          of(J_[at(row)], first) += by * on_first, of(J_[at(row)], second) += by * on_second;
         };
-        bend(first, to.by(0)), bend(second, to.by(1));
+        bend(place(first), to.by(0)), bend(place(second), to.by(1));
         // How steep the force at the other makes the curve.
         of(slope_, first) += to.by(0) * on_first, of(slope_, second) += to.by(1) * on_second;
         const S product = vector(force_, first).dot(on_first);
-        turn_twice(first, first, product * to.by(0, 0)), turn_twice(second, second, product * to.by(1, 1));
-        turn_twice(first, second, product * to.by(1, 0));
+        bend_twice(place(first), place(first), product * to.by(0, 0));
+        bend_twice(place(second), place(second), product * to.by(1, 1));
+        bend_twice(place(first), place(second), product * to.by(1, 0));
         if (p_->taut) {
-          bend(count(), soft * to.by(2));
-          turn_twice(first, count(), product * soft * to.by(2, 0));
-          turn_twice(second, count(), product * soft * to.by(2, 1));
-          turn_twice(count(), count(), product * soft * soft * to.by(2, 2));
+          bend(N(), soft * to.by(2));
+          bend_twice(place(first), N(), product * soft * to.by(2, 0));
+          bend_twice(place(second), N(), product * soft * to.by(2, 1));
+          bend_twice(N(), N(), product * soft * soft * to.by(2, 2));
         }
       }
     }
@@ -202,14 +205,16 @@ class RodBubbles {
   }
   /// How two places yield to each other, in units of a piece's.
   Matrix between(int i, int j) const noexcept { return Spot::shape(*p_, spots_[at(i)], spots_[at(j)]); }
-  /// What is condensed: places, and N behind them.
-  int ways() const noexcept { return count() + (p_->taut ? 1 : 0); }
-  void turn_twice(int i, int j, S by) noexcept {
-    turned_twice_[at(i)][at(j)] += by;
-    if (i != j) turned_twice_[at(j)][at(i)] += by;
+  // Unknowns beside the nodes: the forces, the places, which are condensed, and so is N behind them.
+  int place(int k) const noexcept { return count() + k; }
+  int N() const noexcept { return 2 * count(); }
+  int rows() const noexcept { return 2 * count() + (p_->taut ? 1 : 0); }
+  void bend_twice(int i, int j, S by) noexcept {
+    twice_[at(i)][at(j)] += by;
+    if (i != j) twice_[at(j)][at(i)] += by;
   }
 
-  static constexpr std::size_t most_ways = std::size_t(Most + 1);
+  static constexpr std::size_t most_rows = std::size_t(2 * Most + 1);
   const RodNode<S>*a_, *b_;
   const RodProperties<S>* p_;
   Inner inner_;  // ψ and N, as of the last equations
@@ -218,9 +223,9 @@ class RodBubbles {
   int count_ = 0, seen_ = 0;  // how many there are, and have been looked at
   std::array<Spot, std::size_t(Most)> spots_;
   Square C_;
-  Stack force_, yield_, slope_;                                   // F, CF, how steep that is
-  std::array<Stack, most_ways> J_;                                // of each way, C'F
-  std::array<std::array<S, most_ways>, most_ways> turned_twice_;  // ½ F · C''F
+  Stack force_, yield_, slope_;                            // F, CF, how steep that is
+  std::array<Stack, most_rows> J_;                         // of each unknown, C'F
+  std::array<std::array<S, most_rows>, most_rows> twice_;  // F · r'' + ½ F · C''F
 };
 
 }  // namespace hapbeam::detail

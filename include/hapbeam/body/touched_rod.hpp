@@ -32,10 +32,11 @@ template <class Element, typename S, int Most>
 class TouchedRod : private RodBubbles<Element, S, Most> {
   using Base = RodBubbles<Element, S, Most>;
   using Base::at, Base::block, Base::C_, Base::contacts_, Base::count, Base::even, Base::fill, Base::force_,
-      Base::ids_, Base::inner_, Base::J_, Base::most_ways, Base::of, Base::p_, Base::parallel, Base::seen_,
-      Base::size, Base::spots_, Base::turned_twice_, Base::unknowns, Base::vector, Base::ways, Base::yield_,
-      typename Base::ByPlace, typename Base::Column, typename Base::Contact, typename Base::Matrix,
-      typename Base::Spot, typename Base::Square, typename Base::Stack, typename Base::Vector;
+      Base::ids_, Base::inner_, Base::J_, Base::most_rows, Base::N, Base::of, Base::p_, Base::parallel,
+      Base::place, Base::rows, Base::seen_, Base::size, Base::spots_, Base::twice_, Base::unknowns,
+      Base::vector, Base::yield_, typename Base::ByPlace, typename Base::Column, typename Base::Contact,
+      typename Base::Matrix, typename Base::Spot, typename Base::Square, typename Base::Stack,
+      typename Base::Vector;
   using Tangent = typename Spot::Tangent;
 
  public:
@@ -91,7 +92,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     for (int k = 0; k < count(); ++k) of(off_, k) += contacts_[at(k)]->bubble;
     const Stack He = H_.lazyProduct(off_);
     spread(He, H, r, K);
-    condense_ways(r, K);
+    condense_rows(r, K);
     return force_.dot(yield_) / 2 + force_.dot(off_) + off_.dot(He) / 2;
   }
   /// By how much Π changes as all that is condensed finds its own, but for what the nodes and forces make of that [J].
@@ -102,56 +103,53 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   // Of contact k, after condense().
 
   /// ∂²Π/∂λ∂ of both nodes.
-  const Column& column(int k) const noexcept { return columns_[at(k)]; }
+  const Column& column(int k) const noexcept { return rows_[at(k)].by_nodes; }
   /// ∂Π/∂λ [m]
-  S residual(int k) const noexcept { return residual_[at(k)]; }
+  S residual(int k) const noexcept { return rows_[at(k)].residual; }
   /// ∂²Π/∂λ∂λ' [m/N]
-  S yields(int k, int other) const noexcept { return yields_[at(k)][at(other)]; }
+  S yields(int k, int other) const noexcept { return rows_[at(k)].by[at(other)]; }
 
   /// All that was condensed, after an increment.  @param by  of the nodes   @param forces  of the contacts [N]
   /// @param longer  in and out: what the residuals of places were worth [J]   @return tension()
   S advance(const Column& by, const std::array<S, std::size_t(Most)>& forces, S& longer) noexcept {
-    std::array<S, most_ways> goes{};
+    std::array<S, most_rows> goes{};
+    std::copy_n(forces.begin(), count(), goes.begin());
+    const auto lacks = [&](const Row& row) {
+      S sum = row.residual + row.by_nodes.dot(by);
+      for (int j = 0; j < rows(); ++j) sum += row.by[at(j)] * goes[at(j)];
+      return sum;
+    };
     if (p_->taut) {
-      const Way& way = ways_[at(count())];
-      S sum = way.residual + way.by_nodes.dot(by);
-      for (int j = 0; j < count(); ++j) sum += way.by_force[at(j)] * forces[at(j)];
-      goes[at(count())] = -sum / way.stiff;
-      longer += way.residual * (2 * goes[at(count())] + way.residual / way.stiff);
+      const Row& row = rows_[at(N())];
+      const S stiff = row.by[at(N())];
+      goes[at(N())] = -lacks(row) / stiff;
+      longer += row.residual * (2 * goes[at(N())] + row.residual / stiff);
     }
-    for (int i = count() - 1; i >= 0; --i) {
-      Contact& contact = *contacts_[at(i)];
-      Way& way = ways_[at(i)];
+    for (int k = count() - 1; k >= 0; --k) {
+      Contact& contact = *contacts_[at(k)];
+      const Row& row = rows_[at(place(k))];
       contact.off = 0;
-      if (way.sought || contact.waits) {
-        S sum = way.residual + way.by_nodes.dot(by);
-        for (int j = i + 1; j < ways(); ++j) sum += way.by_way[at(j)] * goes[at(j)];
-        for (int j = 0; j < count(); ++j) sum += way.by_force[at(j)] * forces[at(j)];
+      if (row.sought || contact.waits) {
         // A force that becomes a multiple of itself would take the place as many times too far as n · t is not yet none.
-        const S change = forces[at(i)], before = std::abs(contact.force);
-        sum -= way.by_force[at(i)] * (change - std::clamp(change, -before, before));
-        const S ahead = way.sought ? std::clamp(-sum / way.stiff, -p_->length, p_->length) : S(0);
-        if (way.sought && contact.stays) {
+        const S change = forces[at(k)], before = std::abs(contact.force);
+        const S sum = lacks(row) - row.by[at(k)] * (change - std::clamp(change, -before, before));
+        const S ahead = row.sought ? std::clamp(-sum / row.by[at(place(k))], -p_->length, p_->length) : S(0);
+        if (row.sought && contact.stays) {
           contact.off = -ahead;
-        } else if (way.sought) {
-          goes[at(i)] = ahead;
-          longer += std::abs(sum * goes[at(i)]);
+        } else if (row.sought) {
+          goes[at(place(k))] = ahead;
+          longer += std::abs(sum * ahead);
         } else if (contact.force != 0) {
           longer += sum * sum * contact.reach / std::abs(contact.force);
         }
       }
       contact.waits = false;
     }
-    const int n = size();
-    Stack w(n), turned(n);
-    for (int k = 0; k < count(); ++k) {
-      of(w, k) = spots_[at(k)].move(by);
-      of(turned, k) = forces[at(k)] * contacts_[at(k)]->normal;
-    }
+    Stack w(size());
+    for (int k = 0; k < count(); ++k) of(w, k) = spots_[at(k)].move(by);
     const Stack across = w - off_;
     Stack z = A_.lazyProduct(across);
-    z += AC_.lazyProduct(turned);
-    for (int k = 0; k < ways(); ++k) z += goes[at(k)] * yields_way_[at(k)];
+    for (int i = 0; i < rows(); ++i) z += goes[at(i)] * rows_[at(i)].yields;
     z -= w;
     for (int k = 0; k < count(); ++k) {
       Contact& contact = *contacts_[at(k)];
@@ -162,19 +160,19 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
               bubble = contact.bubble.norm();
       if (contact.rough && bubble > most) contact.bubble *= most / bubble;
       contact.force += forces[at(k)];
-      contact.s += goes[at(k)];
+      contact.s += goes[at(place(k))];
     }
-    return tension() + goes[at(count())] * (p_->taut ? 1 : 0);
+    return p_->taut ? tension() + goes[at(N())] : tension();
   }
 
  private:
-  /// What is condensed: of a place, and behind all of them N.
-  struct Way {
+  /// Of an unknown: ∂Π, and ∂²Π by the nodes and by all unknowns.
+  struct Row {
     bool sought = false;
-    S residual = 0, stiff = 0;
+    S residual = 0;
     Column by_nodes;
-    std::array<S, most_ways> by_way;
-    std::array<S, std::size_t(Most)> by_force;
+    std::array<S, most_rows> by;
+    Stack yields;  // A (C'F + C ζ)
   };
 
   static constexpr int most_steps = 8;
@@ -183,7 +181,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
   /// Adds what all contacts are to the nodes, and finds their columns and what their places are.
   void spread(const Stack& He, Square& H, Column& r, Tangent& K) noexcept {
     const bool turns = turns_with_section();
-    const Stack forces = force_ + He, lacks = A_.lazyProduct(off_);
+    const Stack forces = force_ + He;
     r = -on_nodes(forces);
     if constexpr (unknowns == 7) K.col(6).setZero(), K.col(13).setZero();
     for (int k = 0; k < count(); ++k) {
@@ -206,77 +204,51 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
       if constexpr (unknowns == 7)
         if (!even()) spot.twist(F, v, block(C_, k, k), K);
     }
+    std::array<Stack, most_rows> moves, zeta;  // r' and ζ, of a force n
+    for (int i = 0; i < rows(); ++i) moves[at(i)].setZero(size()), zeta[at(i)].setZero(size());
     for (int k = 0; k < count(); ++k) {
       const Spot& spot = spots_[at(k)];
-      const Vector& normal = contacts_[at(k)]->normal;
-      // M n, M = I - H C = Aᵀ, for H and C are symmetric.
-      Stack pushes(size());
-      for (int j = 0; j < count(); ++j) of(pushes, j) = block(A_, k, j).transpose() * normal;
-      Column& column = columns_[at(k)] = -on_nodes(pushes);
+      of(zeta[at(k)], k) = contacts_[at(k)]->normal;
+      of(moves[at(place(k))], k) = spot.t;
+      of(zeta[at(place(k))], k) = contacts_[at(k)]->force * (spot.curved * spot.t);
+      if (!p_->taut) continue;
+      of(moves[at(N())], k) = spot.by_N;
+      of(zeta[at(N())], k) = -(block(H, k, k) * spot.by_N);
+    }
+    for (int i = 0; i < rows(); ++i) {
+      Row& row = rows_[at(i)];
+      const Stack& bends = J_[at(i)];
+      Stack steep = A_.transpose().lazyProduct(zeta[at(i)]);  // M ζ - H C'F, M = I - H C = Aᵀ
+      steep -= H_.lazyProduct(bends);
+      row.yields = A_.lazyProduct(bends);
+      row.yields += AC_.lazyProduct(zeta[at(i)]);
+      row.residual = steep.dot(off_) - force_.dot(bends) / 2;
+      row.by_nodes = -on_nodes(steep);
+      for (int j = 0; j < rows(); ++j)
+        row.by[at(j)] = -twice_[at(i)][at(j)] - moves[at((std::max)(i, j))].dot(zeta[at((std::min)(i, j))]) -
+                        steep.dot(J_[at(j)]) - zeta[at(j)].dot(row.yields);
+    }
+    for (int k = 0; k < count(); ++k) {
+      const Spot& spot = spots_[at(k)];
+      const Contact& contact = *contacts_[at(k)];
+      const Vector F = vector(force_, k), along = contact.force * contact.normal;
+      Row &force = rows_[at(k)], &sought = rows_[at(place(k))], &tension = rows_[at(rows() - 1)];
+      force.residual -= contact.gap;
       // The moment with which C turns grows with the force.
       if (turns)
         spot.turn(
-            cross3<S>(block(C_, k, k) * normal, vector(force_, k)) + cross3<S>(vector(yield_, k), normal),
-            column);
-      residual_[at(k)] = normal.dot(vector(lacks, k)) - contacts_[at(k)]->gap;
-      for (int j = 0; j < count(); ++j)
-        yields_[at(k)][at(j)] = -normal.dot(Vector(block(AC_, k, j) * contacts_[at(j)]->normal));
-    }
-    std::array<Stack, most_ways> moves, zeta;  // r' and ζ
-    for (int i = 0; i < ways(); ++i) moves[at(i)].setZero(size()), zeta[at(i)].setZero(size());
-    for (int k = 0; k < count(); ++k) {
-      const Spot& spot = spots_[at(k)];
-      of(moves[at(k)], k) = spot.t;
-      of(zeta[at(k)], k) = contacts_[at(k)]->force * (spot.curved * spot.t);
+            cross3<S>(block(C_, k, k) * contact.normal, F) + cross3<S>(vector(yield_, k), contact.normal),
+            force.by_nodes);
+      sought.residual -= along.dot(spot.t) + spot.turns.dot(spot.k);
+      spot.pull(along, sought.by_nodes, Spot::by_place);
       if (!p_->taut) continue;
-      of(moves[at(count())], k) = spot.by_N;
-      of(zeta[at(count())], k) = -(block(H, k, k) * spot.by_N);
+      tension.residual -= F.dot(spot.by_N) + spot.turns.dot(spot.turned_by_N);
+      spot.pull(F, tension.by_nodes, [&](const ByPlace& weight) { return p_->softest() * weight.by(1); });
     }
-    for (int i = 0; i < ways(); ++i) find_way(i, moves, zeta);
-  }
-  /// @param moves, zeta  r' and ζ of all ways
-  void find_way(int i, const std::array<Stack, most_ways>& moves,
-                const std::array<Stack, most_ways>& zeta) noexcept {
-    Way& way = ways_[at(i)];
-    const bool is_place = i < count();
-    const Stack& bends = J_[at(i)];
-    Stack steep = A_.transpose().lazyProduct(zeta[at(i)]);  // M ζ - H C'F
-    steep -= H_.lazyProduct(bends);
-    Stack& yields = yields_way_[at(i)] = A_.lazyProduct(bends);
-    yields += AC_.lazyProduct(zeta[at(i)]);
-    way.residual = is_place ? -spots_[at(i)].turns.dot(spots_[at(i)].k) : inner_.tension.residual;
-    way.residual += steep.dot(off_) - force_.dot(bends) / 2;
-    way.by_nodes = -on_nodes(steep);
-    if (!is_place) way.by_nodes += inner_.tension.row;
-    // What slides has its friction at another place of the curve.
-    const auto along_normal = [&](int k) {
-      return Vector(contacts_[at(k)]->force * contacts_[at(k)]->normal);
-    };
-    for (int k = 0; k < count(); ++k) {
-      if (is_place && k != i) continue;
-      const Spot& spot = spots_[at(k)];
-      const Vector pushes = is_place ? along_normal(k) : vector(force_, k);
-      way.residual -= pushes.dot(vector(moves[at(i)], k));
-      if (!is_place) way.residual -= spot.turns.dot(spot.turned_by_N);
-      spot.pull(pushes, way.by_nodes,
-                [&](const ByPlace& w) { return is_place ? w.by(0) : p_->softest() * w.by(1); });
-    }
-    for (int j = 0; j < ways(); ++j) {
-      const int first = (std::min)(i, j), second = (std::max)(i, j);
-      S sum = -turned_twice_[at(i)][at(j)] - moves[at(second)].dot(zeta[at(first)]) - steep.dot(J_[at(j)]) -
-              zeta[at(j)].dot(yields);
-      if (second < count()) {
-        if (i == j) sum -= along_normal(i).dot(spots_[at(i)].k);
-      } else if (first < count()) {
-        sum -= along_normal(first).dot(spots_[at(first)].turned_by_N);
-      } else {
-        for (int k = 0; k < count(); ++k) sum -= vector(force_, k).dot(spots_[at(k)].by_N_twice);
-        sum += inner_.tension.stiffness;
-      }
-      way.by_way[at(j)] = sum;
-    }
-    for (int j = 0; j < count(); ++j)
-      way.by_force[at(j)] = -contacts_[at(j)]->normal.dot(vector(moves[at(i)], j) + vector(yields, j));
+    if (!p_->taut) return;
+    Row& tension = rows_[at(N())];
+    tension.residual += inner_.tension.residual, tension.by_nodes += inner_.tension.row;
+    tension.by[at(N())] += inner_.tension.stiffness;
   }
   /// Whether C is not the same to all sides.
   bool turns_with_section() const noexcept {
@@ -286,41 +258,35 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     return turns;
   }
   /// Condenses the places that are sought, and N.
-  void condense_ways(Column& r, Tangent& K) noexcept {
+  void condense_rows(Column& r, Tangent& K) noexcept {
     change_ = 0, turned_ = 0;
-    for (int i = 0; i < ways(); ++i) {
-      Way& way = ways_[at(i)];
-      way.stiff = way.by_way[at(i)];
-      if (i < count()) {
-        Contact& contact = *contacts_[at(i)];
-        const S scale = std::abs(contact.force) * spots_[at(i)].t.squaredNorm() / contact.reach;
-        const bool told = contact.kind == Contact::Kind::round && contact.force != 0 &&
-                          std::abs(way.stiff) > parallel * scale;
+    for (int i = count(); i < rows(); ++i) {
+      Row& row = rows_[at(i)];
+      const S stiff = row.by[at(i)], over = 1 / stiff;
+      if (i < N()) {
+        const int k = i - count();
+        Contact& contact = *contacts_[at(k)];
+        const S scale = std::abs(contact.force) * spots_[at(k)].t.squaredNorm() / contact.reach;
+        const bool told =
+            contact.kind == Contact::Kind::round && contact.force != 0 && std::abs(stiff) > parallel * scale;
         // Along a curve that is flatter than the capsule the distance has a minimum.
-        if (told) contact.sharp = way.stiff * contact.force > 0;
-        way.sought = told && contact.moves && !contact.waits && !contact.rests;
-        if (!way.sought || contact.stays) continue;
+        if (told) contact.sharp = stiff * contact.force > 0;
+        row.sought = told && contact.moves && !contact.waits && !contact.rests;
+        if (!row.sought || contact.stays) continue;
         if (contact.sharp) turned_ += contact.force > 0 ? 1 : -1;
       } else {
-        Spot::release(*p_, *Base::a_, *Base::b_, inner_.tension, way.residual, way.stiff, r, K);
+        Spot::release(*p_, *Base::a_, *Base::b_, inner_.tension, row.residual, stiff, r, K);
       }
-      const S over = 1 / way.stiff;
-      change_ -= way.residual * way.residual * over / 2;
-      r -= (way.residual * over) * way.by_nodes;
-      K -= (over * way.by_nodes).lazyProduct(way.by_nodes.transpose());
-      for (int k = 0; k < count(); ++k) {
-        columns_[at(k)] -= (way.by_force[at(k)] * over) * way.by_nodes;
-        residual_[at(k)] -= way.by_force[at(k)] * over * way.residual;
-        for (int j = 0; j < count(); ++j)
-          yields_[at(k)][at(j)] -= way.by_force[at(k)] * over * way.by_force[at(j)];
-      }
-      for (int j = i + 1; j < ways(); ++j) {
-        Way& next = ways_[at(j)];
-        const S part = way.by_way[at(j)] * over;
-        next.residual -= part * way.residual;
-        next.by_nodes -= part * way.by_nodes;
-        for (int k = 0; k < ways(); ++k) next.by_way[at(k)] -= part * way.by_way[at(k)];
-        for (int k = 0; k < count(); ++k) next.by_force[at(k)] -= part * way.by_force[at(k)];
+      change_ -= row.residual * row.residual * over / 2;
+      r -= (row.residual * over) * row.by_nodes;
+      K -= (over * row.by_nodes).lazyProduct(row.by_nodes.transpose());
+      for (int j = 0; j < rows(); ++j) {
+        if (j >= count() && j <= i) continue;
+        Row& other = rows_[at(j)];
+        const S part = row.by[at(j)] * over;
+        other.residual -= part * row.residual;
+        other.by_nodes -= part * row.by_nodes;
+        for (int m = 0; m < rows(); ++m) other.by[at(m)] -= part * row.by[at(m)];
       }
     }
   }
@@ -348,11 +314,7 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
 
   Square A_, H_, AC_;
   Stack off_;  // v - CF
-  std::array<Way, most_ways> ways_;
-  std::array<Stack, most_ways> yields_way_;  // A (C'F + C ζ) of each
-  std::array<Column, std::size_t(Most)> columns_;
-  std::array<S, std::size_t(Most)> residual_{};
-  std::array<std::array<S, std::size_t(Most)>, std::size_t(Most)> yields_{};
+  std::array<Row, most_rows> rows_;
   S change_ = 0;
   int turned_ = 0;
 };
