@@ -154,7 +154,7 @@ class RodBubbles {
       spot.look_at_section(*p_, *a_, *b_, inner_, !contact.rough && contact.kind != Contact::Kind::along);
     }
     const S soft = p_->softest();
-    for (int k = 0; k < rows(); ++k) J_[at(k)].setZero(n), twice_[at(k)].fill(0);
+    for (int i = count(); i < rows(); ++i) J_[at(i)].setZero(n), twice_[at(i)].fill(0);
     for (int i = 0; i < count(); ++i) {
       const Spot& spot = spots_[at(i)];
       const ByPlace& own = spot.g;
@@ -224,7 +224,7 @@ class RodBubbles {
   std::array<Spot, std::size_t(Most)> spots_;
   Square C_;
   Stack force_, yield_, slope_;                            // F, CF, how steep that is
-  std::array<Stack, most_rows> J_;                         // of each unknown, C'F
+  std::array<Stack, most_rows> J_;                         // of each place and N, C'F
   std::array<std::array<S, most_rows>, most_rows> twice_;  // F · r'' + ½ F · C''F
 };
 

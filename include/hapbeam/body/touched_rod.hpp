@@ -217,16 +217,21 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
     }
     for (int i = 0; i < rows(); ++i) {
       Row& row = rows_[at(i)];
-      const Stack& bends = J_[at(i)];
       Stack steep = A_.transpose().lazyProduct(zeta[at(i)]);  // M ζ - H C'F, M = I - H C = Aᵀ
-      steep -= H_.lazyProduct(bends);
-      row.yields = A_.lazyProduct(bends);
-      row.yields += AC_.lazyProduct(zeta[at(i)]);
-      row.residual = steep.dot(off_) - force_.dot(bends) / 2;
+      row.yields = AC_.lazyProduct(zeta[at(i)]), row.residual = 0;
+      if (i >= count()) {
+        const Stack& bends = J_[at(i)];
+        steep -= H_.lazyProduct(bends), row.yields += A_.lazyProduct(bends);
+        row.residual = -force_.dot(bends) / 2;
+      }
+      row.residual += steep.dot(off_);
       row.by_nodes = -on_nodes(steep);
-      for (int j = 0; j < rows(); ++j)
-        row.by[at(j)] = -twice_[at(i)][at(j)] - moves[at((std::max)(i, j))].dot(zeta[at((std::min)(i, j))]) -
-                        steep.dot(J_[at(j)]) - zeta[at(j)].dot(row.yields);
+      moves[at(i)] += row.yields;
+      for (int j = 0; j <= i; ++j) {
+        S by = -moves[at(i)].dot(zeta[at(j)]);
+        if (j >= count()) by -= twice_[at(i)][at(j)] + steep.dot(J_[at(j)]);
+        row.by[at(j)] = rows_[at(j)].by[at(i)] = by;
+      }
     }
     for (int k = 0; k < count(); ++k) {
       const Spot& spot = spots_[at(k)];
