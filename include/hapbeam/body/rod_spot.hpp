@@ -123,16 +123,16 @@ struct RodSpot {
     K(6, 13) -= x * y * grows, K(13, 6) -= x * y * grows;
   }
 
-  /// Takes back how the tension of an element has been condensed without a contact, and adds what one that it lacks now does (round_tension.hpp).
-  /// @param tension  as condensed: row, residual and stiffness   @param residual, stiffness  of it with contacts
+  /// Condenses the tension of an element, in the place of how that has been condensed without a contact: with what one that it lacks now does
+  /// (round_tension.hpp).   @param before  it without a contact: row, residual and stiffness   @param row, residual, stiffness  of it now
   template <class Tension>
-  static void release(const Properties& p, const Node& a, const Node& b, const Tension& tension, S residual,
-                      S stiffness, Column& r, Tangent& K) noexcept {
-    const S over = 1 / tension.stiffness;
-    r += (tension.residual * over) * tension.row;
-    K += (over * tension.row).lazyProduct(tension.row.transpose());
+  static void condense_tension(const Properties& p, const Node& a, const Node& b, const Tension& before,
+                               const Column& row, S residual, S stiffness, Column& r, Tangent& K) noexcept {
+    const S was = 1 / before.stiffness, over = 1 / stiffness;
+    r += before.residual * was * before.row - residual * over * row;
+    K += (was * before.row).lazyProduct(before.row.transpose()) - (over * row).lazyProduct(row.transpose());
     const auto lacks = [](S force, S stiff) { return (std::max)(-force / stiff, S(0)); };
-    const S draws = (lacks(residual, stiffness) - lacks(tension.residual, tension.stiffness)) * p.length,
+    const S draws = (lacks(residual, stiffness) - lacks(before.residual, before.stiffness)) * p.length,
             by_chord = S(1.5) * p.inverse_length;
     const EndsAndMiddle<S> ends(p, a, b);
     const S middle[4] = {-by_chord, S(-0.25), by_chord, S(-0.25)};

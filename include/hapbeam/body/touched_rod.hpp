@@ -279,12 +279,13 @@ class TouchedRod : private RodBubbles<Element, S, Most> {
         row.sought = told && contact.moves && !contact.waits && !contact.rests;
         if (!row.sought || contact.stays) continue;
         if (contact.sharp) turned_ += contact.force > 0 ? 1 : -1;
+        r -= (row.residual * over) * row.by_nodes;
+        K -= (over * row.by_nodes).lazyProduct(row.by_nodes.transpose());
       } else {
-        Spot::release(*p_, *Base::a_, *Base::b_, inner_.tension, row.residual, stiff, r, K);
+        Spot::condense_tension(*p_, *Base::a_, *Base::b_, inner_.tension, row.by_nodes, row.residual, stiff,
+                               r, K);
       }
       change_ -= row.residual * row.residual * over / 2;
-      r -= (row.residual * over) * row.by_nodes;
-      K -= (over * row.by_nodes).lazyProduct(row.by_nodes.transpose());
       for (int j = 0; j < rows(); ++j) {
         if (j >= count() && j <= i) continue;
         Row& other = rows_[at(j)];

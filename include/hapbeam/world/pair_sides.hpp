@@ -192,10 +192,8 @@ class PairSides {
   void condense(int e, const RodProperties<double>& p, const Node& a, const Node& b, const Inner& inner,
                 const TensionRow<Residual>& tension, Residual& r, Tangent& K) noexcept {
     PairEquations& dense = *equations_;
-    Side::Spot::release(p, a, b, inner, tension.residual, tension.stiff, r, K);
+    Side::Spot::condense_tension(p, a, b, inner, tension.row, tension.residual, tension.stiff, r, K);
     const double over = 1 / tension.stiff;
-    r -= tension.residual * over * tension.row;
-    K -= (over * tension.row).lazyProduct(tension.row.transpose());
     tensions_.push_back({e, inner.value, tension});
     each_in(e, [&](Side& side) {
       for (int c = 0; c < 4; ++c) {
