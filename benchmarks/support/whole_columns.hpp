@@ -2,7 +2,7 @@
 #pragma once
 
 #include <hapbeam/element/element.hpp>
-#include <hapbeam/fem/solver/pair_order.hpp>
+#include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::benchmarks {

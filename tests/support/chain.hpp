@@ -2,7 +2,7 @@
 #pragma once
 
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
-#include <hapbeam/fem/solver/pair_order.hpp>
+#include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam::testing {
 

@@ -130,7 +130,8 @@ struct RodSpot {
                                const Column& row, S residual, S stiffness, Column& r, Tangent& K) noexcept {
     const S was = 1 / before.stiffness, over = 1 / stiffness;
     r += before.residual * was * before.row - residual * over * row;
-    K += (was * before.row).lazyProduct(before.row.transpose()) - (over * row).lazyProduct(row.transpose());
+    const Column taken = was * before.row, given = over * row;
+    for (int j = 0; j < 2 * unknowns; ++j) K.col(j) += before.row[j] * taken - row[j] * given;
     const auto lacks = [](S force, S stiff) { return (std::max)(-force / stiff, S(0)); };
     const S draws = (lacks(residual, stiffness) - lacks(before.residual, before.stiffness)) * p.length,
             by_chord = S(1.5) * p.inverse_length;

@@ -18,7 +18,6 @@
 
 #include <hapbeam/element/rod/rod_properties.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
-#include <hapbeam/element/rod/round_strains.hpp>
 #include <hapbeam/element/rod/round_tension.hpp>
 #include <hapbeam/vectors.hpp>
 

@@ -26,10 +26,7 @@ class PairSystem : public WorldPairs<Element> {
   using Base::length, Base::moves, Base::pairs, Base::stride;
   using typename Base::Body;
 
-  /// @throws std::invalid_argument as WorldPairs
-  PairSystem(const std::vector<WorldRod>& rods, const std::vector<RigidBody>& rigid,
-             const std::vector<Joint>& joints)
-      : Base(rods, rigid, joints), bounds_(3 * most_pairs) {}
+  using Base::Base;
 
   /// How far along their path, 0 to 1, the next step takes all ends.
   void aim(double t) noexcept { goal_ = t; }
@@ -213,7 +210,7 @@ class PairSystem : public WorldPairs<Element> {
     });
   }
 
-  PairBounds<PairEquations> bounds_;
+  PairBounds<PairEquations> bounds_{3 * most_pairs};
   bool rough_ = false;               // whether friction acts
   int rows_ = 0, own_negative_ = 0;  // of the pairs that are solved for: unknowns, eigenvalues
   double goal_ = 1;

@@ -9,7 +9,6 @@
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/element/pack_rows.hpp>
 #include <hapbeam/element/rod/rod_properties.hpp>
-#include <hapbeam/fem/solver/pair_order.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/rod_centreline.hpp>
 #include <hapbeam/vectors.hpp>
