@@ -85,10 +85,12 @@ void add_rod_loads(py::class_<Rod>& rod) {
           arg("load"), itself, "A distributed dead load [N/m].")
       .def(
           "add",
-          [](Rod& self, double s, const Numbers& force) -> Rod& {
-            return self.add(RodForce{s, vector_of<3>(force, "force")});
+          [](Rod& self, double s, const Numbers& force, const Numbers& moment) -> Rod& {
+            return self.add(RodForce{s, vector_of<3>(force, "force"), vector_of<3>(moment, "moment")});
           },
-          arg("s"), arg("force"), itself, "A dead force [N] at arc position s [m].")
+          arg("s"), arg("force") = std::array<double, 3>{0, 0, 0},
+          arg("moment") = std::array<double, 3>{0, 0, 0}, itself,
+          "A dead force [N] and a moment [N m] at arc position s [m].")
       .def(
           "foundation",
           [](Rod& self, double from, double to, double across, double along) -> Rod& {

@@ -122,6 +122,23 @@ def test_a_rod_that_is_twisted_has_the_torque_of_its_twist():
     assert model.internal_forces(0.1)["torsion"] == pytest.approx(torque, rel=1e-9)
 
 
+def test_moments_at_the_tip_of_a_rod_twist_it_and_bend_it_to_an_arc():
+    """Torque T everywhere; an arc of curvature M/EI."""
+    section, steel, length = hb.RodSection.circle(0.002), hb.RodMaterial(200e9, 77e9), 0.2
+    bending, torque = 200e9 * section.inertia1, 0.05
+    angle = 0.3
+
+    def rod():
+        return hb.Rod(length, section, steel, hb.RodSupport.clamped, hb.RodSupport.free)
+
+    twisted = hb.FemModel(rod().add(length, moment=(torque, 0, 0)), 8)
+    assert twisted.internal_forces(0.1)["torsion"] == pytest.approx(torque, rel=1e-9)
+    bent = hb.FemModel(rod().add(length, moment=(0, 0, bending * angle / length)), 16)
+    radius = length / angle
+    tip = (radius * np.sin(angle), radius * (1 - np.cos(angle)), 0)
+    assert bent.shape()[-1] == pytest.approx(tip, abs=1e-7 * length)
+
+
 def test_nodes_are_the_memory_of_the_model_and_a_shape_is_a_copy():
     for model, press in (
             (hb.FemModel(ruler(), 8), lambda m: m.press(0.3, 0.01)),
