@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include <hapbeam/check.hpp>
-#include <hapbeam/contact/avatar.hpp>
+#include <hapbeam/contact/find_contact.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/friction.hpp>
 

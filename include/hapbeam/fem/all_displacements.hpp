@@ -16,11 +16,9 @@
 #include <utility>
 
 #include <hapbeam/fem/beam_system.hpp>
-#include <hapbeam/fem/contact/place_push.hpp>
 #include <hapbeam/fem/contact/row_push.hpp>
-#include <hapbeam/fem/load_path.hpp>
-#include <hapbeam/fem/press_range.hpp>
-#include <hapbeam/fem/solver/descent.hpp>
+#include <hapbeam/fem/press.hpp>
+#include <hapbeam/fem/solver/load_path.hpp>
 
 namespace hapbeam {
 

@@ -136,13 +136,11 @@ class Inertia : public MassBlocks<S, 2, Elements, MaxElements> {
       return Number(of([&](int e) HAPBEAM_INLINED { return (blocks_[e].next.*member)[k]; }));
     };
     const Number ax = turn(3, 1, 0), ay = turn(2, -1, 0), bx = turn(3, 1, 1), by = turn(2, -1, 1);
-    const Number own = next(&std::decay_t<decltype(blocks_[0].next)>::own, 0),
-                 mine = next(&std::decay_t<decltype(blocks_[0].next)>::other, 0),
-                 its = next(&std::decay_t<decltype(blocks_[0].next)>::other, 2);
+    const Number own = next(&Block::own, 0), mine = next(&Block::other, 0), its = next(&Block::other, 2);
     K(0, 3) += own, K(1, 4) += own;
     K(0, 5) += mine * bx, K(1, 5) += mine * by;
     K(2, 3) += its * ax, K(2, 4) += its * ay;
-    K(2, 5) += next(&std::decay_t<decltype(blocks_[0].next)>::own, 2) * (ax * bx + ay * by);
+    K(2, 5) += next(&Block::own, 2) * (ax * bx + ay * by);
   }
   /// What is one node's.   @param of  (f) -> f(i)
   template <class Of, class Residual, class Tangent>

@@ -26,7 +26,7 @@
 
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/all_displacements.hpp>
-#include <hapbeam/fem/press_range.hpp>
+#include <hapbeam/fem/press.hpp>
 #include <hapbeam/fem/taut_system.hpp>
 #include <hapbeam/internal_forces.hpp>
 
@@ -109,7 +109,7 @@ class FemModel {
   template <class InSpace = Of>
   HeldEnd<Scalar> hold(typename InSpace::Side side, const typename InSpace::Pose& pose) noexcept;
 
-  /// Where press() answers with ok: press_range.hpp says how far that is.  A push() has no limit of depth.
+  /// Where press() answers with ok: press.hpp says how far that is.  A push() has no limit of depth.
   Range<Scalar> range() const noexcept { return range_.range(); }
 
   Scalar thickness() const noexcept { return thickness_; }

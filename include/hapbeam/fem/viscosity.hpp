@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What is viscous in a beam that moves: in a stage of its step an element beside the elastic one, stiffer or softer, that is bent by nature.
+// What viscous material keeps of its past, and what it makes of that in a stage of a step.
 //
-// Its strains are the stretch and the bending of an element, by the cubic (viscous_history.hpp).
-// What a chain calls is virtual, as of Inertia.
+//   σ = E (ε + τ ε' + Σ g_i h_i),   h_i' = ε' - h_i/τ_i         ε: strains of an element
+//
+// With r of the step (tr_bdf2.hpp) a stage has
+//   ε' = r (ε - ε^),   h_i = (h^_i + ε - ε^)/(1 + 1/(r τ_i))
+// so that all of it is E κ (ε - ε°), with κ = τ r + Σ g_i/(1 + 1/(r τ_i)) and ε° from what was: an element that is bent by nature.
+//
+// Of a beam in the plane that is an element beside the elastic one, stiffer or softer.  Its strains are the stretch and the bending of an element, by
+// the cubic.  What a chain calls is virtual, as of Inertia.
 // Allocates at construction.  Real-time: all else is noexcept and allocation-free, O(n).
 #pragma once
 
@@ -11,9 +17,119 @@
 #include <hapbeam/beam.hpp>
 #include <hapbeam/element/corotational.hpp>
 #include <hapbeam/element/tapered.hpp>
-#include <hapbeam/fem/motion/viscous_history.hpp>
+#include <hapbeam/fem/motion/tr_bdf2.hpp>
+#include <hapbeam/fem/solver/per_node.hpp>
+#include <hapbeam/section.hpp>
 
 namespace hapbeam::detail {
+
+/// @tparam Size  strains of an element
+template <typename S, int Size, int Elements, int MaxElements>
+class ViscousHistory {
+ public:
+  using Strain = Eigen::Matrix<S, Size, 1>;
+
+  ViscousHistory(const Damping& damping, int elements)
+      : viscosity_(static_cast<S>(damping.viscosity)),
+        size_(damping.viscous() ? elements : 0),
+        now_(elements),
+        between_(elements),
+        before_(elements),
+        from_(elements) {
+    for (const Relaxation& branch : damping.branches)
+      if (branch.share > 0)
+        branches_[count_++] = {static_cast<S>(branch.share), static_cast<S>(branch.time), 0};
+  }
+
+  bool none() const noexcept { return size_ == 0; }
+  /// Whether a load bends it at once, as a part of a step sees it: no damper takes a thousandth of that [s].
+  bool leaps(S part) const noexcept { return viscosity_ < part / 1000; }
+  /// Its rates are zero from here on.
+  void stop() noexcept {
+    for (int e = 0; e < size_; ++e) now_[e].rate.setZero();
+  }
+  /// A part of a step.
+  void begin() noexcept {
+    for (int e = 0; e < size_; ++e) before_[e] = now_[e];
+  }
+  void take_back() noexcept {
+    for (int e = 0; e < size_; ++e) now_[e] = before_[e];
+  }
+  /// Back to the state before the last part, with the rates behind it.
+  void start_again() noexcept {
+    for (int e = 0; e < size_; ++e)
+      now_[e].strain = before_[e].strain, now_[e].branches = before_[e].branches;
+  }
+
+ protected:
+  /// Number of elements; 0 without viscosity.
+  int size() const noexcept { return size_; }
+  /// κ
+  S stiffer() const noexcept { return stiffer_; }
+  /// In equilibrium for long.   @param strain  (e), here and below
+  template <class Find>
+  void relax_at(Find&& strain) noexcept {
+    for (int e = 0; e < size_; ++e) now_[e] = {}, now_[e].strain = strain(e);
+  }
+  /// Sets κ of a stage.   @param set  (e, κ ε°)
+  template <class Step, class Set>
+  void aim_at(int stage, const Step& step, Set&& set) noexcept {
+    r_ = step.rate(), stiffer_ = viscosity_ * r_;
+    for (int i = 0; i < count_; ++i) {
+      Branch& branch = branches_[i];
+      branch.left = 1 / (1 + 1 / (r_ * branch.time));
+      stiffer_ += branch.share * branch.left;
+    }
+    for (int e = 0; e < size_; ++e) {
+      const State &x = now_[e], &y = between_[e];
+      State& from = from_[e];
+      from.strain = step.counted_from(stage, x.strain, x.rate, y.strain);
+      Strain pulls = viscosity_ * r_ * from.strain;
+      for (int i = 0; i < count_; ++i) {
+        const Strain h = x.branches.col(i);
+        from.branches.col(i) =
+            step.counted_from(stage, h, Strain(x.rate - h / branches_[i].time), Strain(y.branches.col(i)));
+        pulls += branches_[i].share * branches_[i].left * (from.strain - from.branches.col(i));
+      }
+      set(e, pulls);
+    }
+  }
+  /// To be called where the stage has been solved.
+  template <class Find>
+  void know_at(int stage, Find&& strain) noexcept {
+    for (int e = 0; e < size_; ++e) {
+      const Strain now = strain(e), change = now - from_[e].strain;
+      State& to = (stage == 0 ? between_ : now_)[e];
+      to.strain = now, to.rate = r_ * change;
+      for (int i = 0; i < count_; ++i)
+        to.branches.col(i) = branches_[i].left * (from_[e].branches.col(i) + change);
+    }
+  }
+  const Strain& strain_of(int e) const noexcept { return now_[e].strain; }
+  /// What the branches of an element hold [J].   @param energy  (h) of the elastic element
+  template <class Energy>
+  S stored(int e, Energy&& energy) const noexcept {
+    S sum = 0;
+    for (int i = 0; i < count_; ++i) sum += branches_[i].share * energy(Strain(now_[e].branches.col(i)));
+    return sum;
+  }
+
+ private:
+  static constexpr int most = std::tuple_size<decltype(Damping::branches)>::value;
+  struct State {
+    Strain strain = Strain::Zero(), rate = Strain::Zero();
+    Eigen::Matrix<S, Size, most> branches = Eigen::Matrix<S, Size, most>::Zero();  // h
+  };
+  struct Branch {
+    S share, time, left;  // g, τ [s], 1/(1 + 1/(r τ))
+  };
+  using States = PerNode<State, Elements, MaxElements>;
+
+  S viscosity_, r_ = 1, stiffer_ = 0;  // τ [s], r [1/s], κ
+  Branch branches_[most] = {};
+  int count_ = 0, size_;
+  States now_, between_, before_, from_;  // the last: ε^ and h^
+};
 
 template <class Element, typename S, int Elements, int MaxElements>
 class Viscosity : public ViscousHistory<S, 3, Elements, MaxElements> {

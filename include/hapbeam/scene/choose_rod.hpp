@@ -23,7 +23,7 @@
 
 #include <hapbeam/element/rod.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
-#include <hapbeam/fem/press_range.hpp>
+#include <hapbeam/fem/press.hpp>
 #include <hapbeam/fem/rod_system.hpp>
 #include <hapbeam/scene/choose.hpp>
 

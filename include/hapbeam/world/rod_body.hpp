@@ -15,9 +15,9 @@
 #include <string>
 
 #include <hapbeam/contact/box.hpp>
-#include <hapbeam/fem/load_path.hpp>
 #include <hapbeam/fem/motion/chain_motion.hpp>
 #include <hapbeam/fem/rod_system.hpp>
+#include <hapbeam/fem/solver/load_path.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/world/pair_sides.hpp>
 

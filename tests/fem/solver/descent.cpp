@@ -6,7 +6,7 @@
 #include "support/random.hpp"
 #include "support/status.hpp"
 #include <hapbeam/fem/fem_model.hpp>
-#include <hapbeam/fem/solver/descent.hpp>
+#include <hapbeam/fem/solver/load_path.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

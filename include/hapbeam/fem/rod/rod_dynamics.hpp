@@ -12,7 +12,7 @@
 //
 //   E (ε - ε0) + E κ (ε - ε°) = E (1 + κ) (ε - (ε0 + κ ε°)/(1 + κ))      ε0: natural
 //
-// Strains are curvatures and twist at both Gauss points of an element, and stretch at its ends and middle (viscous_history.hpp).  They are TwistedRod's:
+// Strains are curvatures and twist at both Gauss points of an element, and stretch at its ends and middle (viscosity.hpp).  They are TwistedRod's:
 // where a bend turns in its section the moment is not along the curvature, and twists a rod that nothing else does (docs/decisions/viscous_rods.md):
 //
 //   T' = M·t'      t: tangent
@@ -23,8 +23,8 @@
 
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/mass_blocks.hpp>
-#include <hapbeam/fem/motion/viscous_history.hpp>
 #include <hapbeam/fem/rod/end_path.hpp>
+#include <hapbeam/fem/viscosity.hpp>
 #include <hapbeam/rod.hpp>
 #include <hapbeam/rod_centreline.hpp>
 
