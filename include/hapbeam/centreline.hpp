@@ -225,6 +225,12 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
     return {a.u + t * (b.u - a.u), a.w + t * rise - t * r * (r * p - t * q),
             -(rise - (r * r - 2 * t * r) * p + (2 * t * r - t * t) * q) / h};
   }
+  /// A node where there is none.
+  Node node_at(Scalar s) const noexcept { return node_at(segment_at(s), s); }
+  Node node_at(int i, Scalar s) const noexcept {
+    const Displacement<Scalar> moved = at(i, s);
+    return {s, moved.u, moved.w, moved.theta};
+  }
 
  private:
   /// Mean of |dr/ds| between two neighbouring nodes, from their directions.

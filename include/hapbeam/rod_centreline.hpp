@@ -124,6 +124,12 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
     return {a.r + t * t * (3 - 2 * t) * chord + l * t * u * (u * a.tangent - t * b.tangent),
             6 * t * u / l * chord + u * (1 - 3 * t) * a.tangent + t * (3 * t - 2) * b.tangent};
   }
+  /// A node where there is none, with the director of the one before.
+  Node node_at(Scalar s) const noexcept { return node_at(segment_at(s), s); }
+  Node node_at(int i, Scalar s) const noexcept {
+    const RodPoint<Scalar> point = at(i, s);
+    return {s, point.r, point.tangent, nodes_[i].director};
+  }
 
  private:
   /// Square of a length of a piece, at the larger |dr/ds| of its ends [m²].

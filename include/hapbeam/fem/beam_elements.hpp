@@ -180,12 +180,12 @@ class BeamElements {
     subtract_loads(e, lambda, r);
   }
   /// What the section at s carries, in element e, which holds s.   @param thickness [m]   @param r  its forces on its nodes, less loads
-  /// @param place  (s) -> Displacement within it   @param others  as of cut_element()
+  /// @param place  (s) -> node within it   @param others  as of cut_element()
   template <class Place, class Others>
   InternalForces<Scalar> internal_forces(const detail::CutAt<Scalar>& at, Scalar lambda, Scalar thickness,
                                          const Vector6<Scalar>& r, Place&& place,
                                          Others&& others) const noexcept {
-    const auto on_curve = [&](Scalar s) { return detail::cut_place<Element>(s, place(s)); };
+    const auto on_curve = [&](Scalar s) { return detail::cut_place<Element>(place(s)); };
     const detail::SectionCut<Scalar, 2> left{{-r[0], -r[1]}, -r[2], on_curve(at.from).r};
     return detail::in_section<Element>(detail::cut_element(left, r[5], at, lambda, loads_, on_curve, others),
                                        place(at.s).theta, pieces_.stiffness(at.s), thickness);

@@ -103,18 +103,11 @@ class BeamChain {
     node.u += by.x(), node.w += by.y();
     node.theta -= along.x() * slope.y() - along.y() * slope.x();
   }
-  /// In a piece of a line, which holds s.
-  static Node node_of(const Centreline<Scalar>& line, int piece, Scalar s) noexcept {
-    const Displacement<Scalar> there = line.at(piece, s);
-    return {s, there.u, there.w, there.theta};
-  }
   /// Where the mesh has none, in element e, which holds s.
   Node node_within(int e, Scalar s) const noexcept {
     const Node &a = parts_.nodes()[e], &b = parts_.nodes()[e + 1];
     const bool straight = a.theta == 0 && b.theta == 0 && a.u == b.u && a.w == b.w;
-    const Displacement<Scalar> there =
-        straight ? Displacement<Scalar>{a.u, a.w, 0} : parts_.view(parts_.nodes()).at(e, s);
-    return {s, there.u, there.w, there.theta};
+    return straight ? Node{s, a.u, a.w, 0} : parts_.view(parts_.nodes()).node_at(e, s);
   }
   Node node_at(Scalar s) const noexcept { return node_within(parts_.view(parts_.nodes()).segment_at(s), s); }
   /// That of a contact.   @param off  from what touches it
@@ -223,10 +216,7 @@ class BeamChain {
   }
   /// Takes another shape of the same beam.
   void lay(const Centreline<Scalar>& shape) noexcept {
-    for (Node& node : parts_.nodes()) {
-      const Displacement<Scalar> at = shape.at(node.s);
-      node = {node.s, at.u, at.w, at.theta};
-    }
+    for (Node& node : parts_.nodes()) node = shape.node_at(node.s);
     parts_.find_tensions();
   }
   /// A node that goes from place and tangent to others: it turns as the tangent does.
@@ -285,16 +275,12 @@ class BeamChain {
   template <class Rows, class Curve>
   InternalForces<Scalar> internal_forces(const Rows& rows, int e, const detail::CutAt<Scalar>& at,
                                          Scalar load, Scalar thickness, Curve&& curve) const noexcept {
-    const auto place = [&curve](Scalar s) {
-      const Node there = curve(s);
-      return Displacement<Scalar>{there.u, there.w, there.theta};
-    };
     return parts_.internal_forces(
-        at, load, thickness, nodal_forces(rows, e, load), place, [&](auto& cut, bool whole) {
+        at, load, thickness, nodal_forces(rows, e, load), curve, [&](auto& cut, bool whole) {
           for (int k = 0; k < rows.size(); ++k)
             if (const auto& contact = rows[k]; rows.element(k) == e && (whole || at.passed(contact.s)))
               cut.pass(contact.force * contact.normal + contact.friction,
-                       detail::cut_place<Element>(contact.s, place(contact.s)).r);
+                       detail::cut_place<Element>(curve(contact.s)).r);
         });
   }
 

@@ -116,11 +116,6 @@ class RodChain {
     node.r += by;
     detail::set_tangent<Scalar>(node, node.tangent + slope);
   }
-  /// In a piece of a line, which holds s; without its director.
-  static Node node_of(const Centreline<Scalar, 3>& line, int piece, Scalar s) noexcept {
-    const RodPoint<Scalar> there = line.at(piece, s);
-    return {s, there.r, there.tangent, line[piece].director};
-  }
   /// Where the mesh has none, in element e, which holds s.
   Node node_within(int e, Scalar s) const noexcept { return parts_.node_within(e, s); }
   Node node_at(Scalar s) const noexcept { return node_within(parts_.view(parts_.nodes()).segment_at(s), s); }

@@ -40,12 +40,12 @@ template <typename Scalar, int D>
 struct CutPlace {
   VectorOf<Scalar, D> r, tangent;
 };
-/// Of a beam in the plane: unless slopes are felt, the straight one's.
+/// Of a node of a beam in the plane: unless slopes are felt, the straight one's.
 template <class Element, typename Scalar>
-CutPlace<Scalar, 2> cut_place(Scalar s, const Displacement<Scalar>& at) noexcept {
-  if constexpr (any_rotation<Element>) return {{s + at.u, at.w}, direction(-at.theta)};
-  else if constexpr (membrane_feels_slope<Element>) return {{s, at.w}, {1, -at.theta}};
-  else return {{s, 0}, {1, 0}};
+CutPlace<Scalar, 2> cut_place(const CentrelineNode<Scalar>& at) noexcept {
+  if constexpr (any_rotation<Element>) return {at.position(), direction(-at.theta)};
+  else if constexpr (membrane_feels_slope<Element>) return {{at.s, at.w}, {1, -at.theta}};
+  else return {{at.s, 0}, {1, 0}};
 }
 
 /// A cut that moves along an element.

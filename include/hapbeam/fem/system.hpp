@@ -383,7 +383,7 @@ class ChainSystem {
                                   {from, to, at, e + 1 == elements(), at == from || at == drawn_[piece].s},
                                   load_, thickness, [this, line = drawn(), e](Scalar x) {
                                     const int in = line.segment_at(x);
-                                    Node there = Chain::node_of(line, in, x);
+                                    Node there = line.node_at(in, x);
                                     const Beside by = beside(line, in, e, x);
                                     Chain::bend(there, by.place, by.slope);
                                     return there;

@@ -83,7 +83,7 @@ class ActiveSet {
   void meet_beside(const System& system, int i, int other, Scalar s) noexcept {
     if (!of(other)) return meet(system, i);
     laws_[i].emplace(*of(other));
-    laws_[i]->begin_beside(RoundContact::node_at(system.drawn(), s));
+    laws_[i]->begin_beside(system.drawn().node_at(s));
   }
 
   /// Whether it stuck in the push before, or slid by less than that.  @param way  [m]

@@ -69,7 +69,7 @@ class ObstacleGap {
       for (Scalar away = reach / 2; away > (std::max)(apart, reach / 20); away /= 2) {
         const Scalar at = touched + static_cast<Scalar>(side) * away;
         if (at < 0 || at > length) continue;
-        const Scalar clearance = round_.clearance(round_.node_at(line_, at));
+        const Scalar clearance = round_.clearance(line_.node_at(at));
         if (!(clearance < reach)) continue;
         if (side < 0) take(at, (std::max)(touched - 2 * away, Scalar(0)), touched - apart, clearance);
         else take(at, touched + apart, (std::min)(touched + 2 * away, length), clearance);
@@ -82,13 +82,13 @@ class ObstacleGap {
       return round_.look(node, s <= 0 ? -1 : s >= length ? 1 : 0);
     };
     // What is far away does not touch, unless the beam has gone past it in this push.
-    const auto start = round_.node_at(line_, s);
+    const auto start = line_.node_at(s);
     const auto beside = view_at(start);
     if (round_.clearance(start) - reach > right_ - left_ + length / 100 &&
         (beside.past_end || beside.distance > 0))
       return;
     for (int step = 0; step < most_looks; ++step) {
-      const auto view = view_at(round_.node_at(line_, s));
+      const auto view = view_at(line_.node_at(s));
       depth = reach - view.distance;
       const Scalar next = std::clamp(s + view.ahead, left_, right_);
       if (std::abs(next - s) <= Scalar(1e-6) * length) break;
@@ -124,14 +124,14 @@ auto look_beside(const System& system, const Round& of, typename System::Scalar&
   constexpr int dimension = System::dimension;
   const auto line = system.centreline();
   const RoundContact round{of};
-  auto node = round.node_at(line, foot);
+  auto node = line.node_at(foot);
   auto view = round.look(node, 0);
   for (int k = 0; k < 4 && std::abs(view.ahead) > Scalar(1e-7) * of.reach; ++k) {
     foot = std::clamp(foot + view.ahead, Scalar(0), system.length());
-    node = round.node_at(line, foot);
+    node = line.node_at(foot);
     view = round.look(node, 0);
   }
-  const Vector place = RoundContact::place_of(node), off = round.centre(place) - place;
+  const Vector place = node.position(), off = round.centre(place) - place;
   // Where a beam that is bent far leads the search to and fro, no foot is found, and the place is not beside it.
   const bool beyond = (foot <= 0 && view.ahead < 0) || (foot >= system.length() && view.ahead > 0) ||
                       std::abs(view.ahead) > of.reach;

@@ -46,7 +46,6 @@ struct RoundContact {
     }
     return {n, above, along, false};
   }
-  static Vector place_of(const Node& node) noexcept { return {node.s + node.u, node.w}; }
   Vector centre(const Vector&) const noexcept { return circle.centre; }
   /// Across a tangent, to the side on which the circle is; unit where that is.
   Vector facing(const Vector& tangent) const noexcept {
@@ -76,11 +75,6 @@ struct RoundContact {
   template <class Contact>
   FrictionPlace<Scalar, 2> friction_place(const Contact& contact) const noexcept {
     return place(contact.s, 0, -contact.normal);
-  }
-  /// A node where the mesh has none.
-  static Node node_at(const Centreline<Scalar>& line, Scalar s) noexcept {
-    const Displacement<Scalar> moved = line.at(s);
-    return Node{s, moved.u, moved.w, moved.theta};
   }
 
  private:
@@ -118,7 +112,6 @@ struct RodRoundContact {
     const Vector normal = distance > 0 ? Vector(w / distance) : facing(t);
     return {normal, std::copysign(distance, normal.dot(capsule.normal)), along / length, past_end};
   }
-  static Vector place_of(const Node& node) noexcept { return node.r; }
   /// The point of the axis that is nearest.
   Vector centre(const Vector& point) const noexcept { return capsule.axis.at(capsule.axis.nearest(point)); }
   /// Across a tangent, to where the capsule has come from; unit.
@@ -155,12 +148,6 @@ struct RodRoundContact {
   FrictionPlace<Scalar, 3> friction_place(const Contact& contact) const noexcept {
     return place(contact.s, 0, -contact.normal, unit(contact.tangent), centre(contact.place));
   }
-  /// A node where the mesh has none.
-  static Node node_at(const Centreline<Scalar, 3>& line, Scalar s) noexcept {
-    const int i = line.segment_at(s);
-    const RodPoint<Scalar> at = line.at(i, s);
-    return {s, at.r, at.tangent, line[i].director};
-  }
 
  private:
   /// Of the square of a sine.
@@ -186,7 +173,7 @@ class ContactFriction : public FrictionLaw<Scalar, D> {
                   const System& system, Scalar normal_force, bool alone) noexcept
       : round_(round) {
     const auto line = system.drawn();
-    const auto node = round.node_at(line, round.request().s);
+    const auto node = line.node_at(round.request().s);
     const Scalar per_length = system.unit() / system.length();
     const int beside = line.node_near(round.request().s);
     // The mean of both pieces has an error of first order.  A contact that is alone keeps it, and with it the last bit of its forces: it costs up

@@ -97,7 +97,7 @@ class RowContacts {
       Scalar s = round.request().s;
       for (int k = 0; k < 4; ++k) {
         s = std::clamp(s, Scalar(0), system.length());
-        s += round.look(round.node_at(line, s), 0).ahead;
+        s += round.look(line.node_at(s), 0).ahead;
       }
       place(system, i, std::abs(s - round.request().s) < system.length() ? s : round.request().s);
     }
@@ -122,8 +122,8 @@ class RowContacts {
     const RoundContact round{active[i].round};
     const Scalar s = active[i].round.s;
     Slot& now = slots[i];
-    const auto node = round.node_at(system.drawn(), s);
-    const Vector at = round.place_of(node), centre = round.centre(at), way = centre - centre_before(i, at);
+    const auto node = system.drawn().node_at(s);
+    const Vector at = node.position(), centre = round.centre(at), way = centre - centre_before(i, at);
     place(system, i, s + round.along(node, Vector(way + returns * (centre - at))));
     if (!now.moves) return;
     hold_along(system, i, s);
@@ -138,9 +138,9 @@ class RowContacts {
   void hold_along(const System& system, int i, Scalar there) noexcept {
     const RoundContact round{active[i].round};
     Slot& now = slots[i];
-    const auto node = round.node_at(system.drawn(), there);
+    const auto node = system.drawn().node_at(there);
     now.normal = -round.facing(round.tangent(node));
-    now.place = round.place_of(node);
+    now.place = node.position();
     now.held = true, now.moves = false, now.of = there;
   }
   Contact contact(int i) noexcept {
@@ -411,7 +411,7 @@ class RowContacts {
     Slot& now = slots[i];
     now.depth = gap.depth;
     if (!std::isfinite(gap.depth)) return;
-    now.depth += round.facing(round.tangent(round.node_at(line, gap.s))).dot(system.beside_drawn(gap.s));
+    now.depth += round.facing(round.tangent(line.node_at(gap.s))).dot(system.beside_drawn(gap.s));
     place(system, i, gap.s);
     if (gap.s < least_ || gap.s > most_) now.depth = -std::numeric_limits<Scalar>::infinity();
   }

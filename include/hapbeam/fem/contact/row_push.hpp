@@ -312,7 +312,7 @@ class RowPush {
       const Scalar s = contacts_.slots[i].s;
       const RoundContact round{active()[i].round};
       const auto off = [&](const auto& line) {
-        return std::abs(round.clearance(round.node_at(line, s)) - active()[i].round.reach);
+        return std::abs(round.clearance(line.node_at(s)) - active()[i].round.reach);
       };
       jump = (std::max)(jump, off(system.centreline()));
       from_rest = (std::max)(from_rest, off(system.view(way.rest_state_)));

@@ -209,11 +209,8 @@ class SnapshotTaker {
     const double force = press_for_training(model, s, d);
     Snapshot& snapshot = out_.grid[static_cast<std::size_t>(i * out_.columns + j)];
     snapshot = {s, d, force, force / e, {}};
-    for (int k = 0; k <= out_.plan.segments; ++k) {
-      const double x = frame_.position(k, s);
-      const auto at = model.shape().at(x);
-      snapshot.nodes.push_back({x, at.u, at.w, at.theta});
-    }
+    for (int k = 0; k <= out_.plan.segments; ++k)
+      snapshot.nodes.push_back(model.shape().node_at(frame_.position(k, s)));
     // Nor has force over depth a value: it is the derivative there.
     if (std::abs(e) < shallow)
       snapshot.stiffness =
