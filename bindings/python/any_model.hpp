@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <hapbeam/contact/find_rod_contact.hpp>
+#include <hapbeam/contact/find_contact_near.hpp>
 #include <hapbeam/contact/prop.hpp>
 #include <hapbeam/contact/touch_several.hpp>
 #include <hapbeam/force_model.hpp>

@@ -11,7 +11,6 @@
 // No allocation, noexcept, O(1) but for the search of the piece, which is O(log n).
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <type_traits>
 

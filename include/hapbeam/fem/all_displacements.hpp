@@ -10,11 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 
+#include <hapbeam/check.hpp>
 #include <hapbeam/fem/beam_system.hpp>
 #include <hapbeam/fem/contact/row_push.hpp>
 #include <hapbeam/fem/press.hpp>
@@ -270,10 +269,11 @@ class AllDisplacements {
       system_.set_target(1);
       // Whether round-off leaves a stiffness of so many elements.
       if (is_answer(rest_.status) && system_.factor(0) != Status::ok)
-        throw std::invalid_argument(
-            "elements = " + std::to_string(elements()) +
-            ": too many for this beam in this scalar, its tangent at rest has no digits "
-            "left; take fewer, or double");
+        detail::refuse(
+            "elements = %d: too many for this beam in this scalar, its tangent at rest has no digits left; "
+            "take "
+            "fewer, or double",
+            elements());
     }
     report_ = rest_;
   }

@@ -19,11 +19,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <variant>
 
+#include <hapbeam/check.hpp>
 #include <hapbeam/element/von_karman.hpp>
 #include <hapbeam/fem/all_displacements.hpp>
 #include <hapbeam/fem/press.hpp>
@@ -174,9 +173,10 @@ class FemModel {
 
   static int at_most(int most, int elements) {
     if (elements > most)
-      throw std::invalid_argument("elements = " + std::to_string(elements) + ": must be at most " +
-                                  std::to_string(most) +
-                                  " for this beam and scalar: in finer meshes round-off leaves no digit");
+      detail::refuse(
+          "elements = %d: must be at most %d for this beam and scalar: in finer meshes round-off leaves no "
+          "digit",
+          elements, most);
     return elements;
   }
 
@@ -185,7 +185,7 @@ class FemModel {
     bool finite = range_.length() >= (std::numeric_limits<Scalar>::min)();
     for (const auto& node : shape()) finite = finite && is_finite(node);
     if (!finite)
-      throw std::invalid_argument(
+      detail::refuse(
           "beam: sizes, loads and placed ends must leave it a length and a shape at rest that the model's "
           "scalar holds");
   }

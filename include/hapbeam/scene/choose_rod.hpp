@@ -115,14 +115,9 @@ class RodPilot : public detail::PilotOf<detail::PushLine> {
  private:
   template <class Element>
   void search(const RodScene& scene) {
-    const double length = scene.rod.length();
-    const Range<double> range = scene.range();
-    const double left = range.s_min > 0 ? scene.s_min : length,
-                 right = range.s_max < length ? length - scene.s_max : length;
     FemModel<Element> resting(scene.rod, 64);
     place(scene, resting);
-    refine(length, (std::min)(left, right), 256, scene.force_error, scene.depth,
-           [&](int n) { return FemModel<Element>(scene.rod, n); });
+    refine(scene, resting, 256, [&](int n) { return FemModel<Element>(scene.rod, n); });
   }
 
   template <class Model>

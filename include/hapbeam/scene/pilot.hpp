@@ -62,17 +62,21 @@ class PilotOf {
   explicit PilotOf(double force_floor) noexcept : floor_(force_floor) {}
 
   /// Refines a reference until it is known well enough, and keeps its answers.
-  /// @param length [m]   @param beside [m] from the nearest line to a support   @param model_of  elements -> model
-  template <class ModelOf>
-  void refine(double length, double beside, int most, double force_error, double depth, ModelOf&& model_of) {
+  /// @param rest  of any mesh   @param most  elements   @param model_of  elements -> model
+  template <class S, class Model, class ModelOf>
+  void refine(const S& scene, const Model& rest, int most, ModelOf&& model_of) {
+    const Range<double> range = rest.range();
+    const double length = rest.shape().length(),
+                 beside = (std::min)(range.s_min > 0 ? scene.s_min : length,
+                                     range.s_max < length ? length - scene.s_max : length);
     // Four elements at least between a support and the nearest line, or half as many would be no other mesh there.
     for (elements_ = 32; elements_ < most && elements_ * beside < 4 * length;) elements_ *= 2;
     for (;; elements_ *= 2) {
       auto coarse = model_of(elements_ / 2), reference = model_of(elements_);
-      answer(reference, depth);
+      answer(reference, scene.depth);
       const double apart = error(coarse);
       own_error_ = apart / 3;
-      if (apart <= force_error / 20 || elements_ >= most) return;
+      if (apart <= scene.force_error / 20 || elements_ >= most) return;
     }
   }
 
@@ -120,12 +124,9 @@ class Pilot : public detail::PilotOf<detail::PressLine> {
   using Reference = FullModel<Corotational<>>;
 
   explicit Pilot(const Scene& scene) : PilotOf(scene.check().force_floor) {
-    place(scene);
-    const double length = scene.beam.length();
-    const double left = fixes_w(scene.beam.left()) ? scene.s_min : length;
-    const double right = fixes_w(scene.beam.right()) ? length - scene.s_max : length;
-    refine(length, (std::min)(left, right), 512, scene.force_error, scene.depth,
-           [&](int n) { return Reference(scene.beam, n); });
+    const Reference rest(scene.beam, 32);
+    place(scene, rest);
+    refine(scene, rest, 512, [&](int n) { return Reference(scene.beam, n); });
   }
 
   /// Both ends of the range and its middle [m].
@@ -134,8 +135,7 @@ class Pilot : public detail::PilotOf<detail::PressLine> {
   }
 
  private:
-  void place(const Scene& scene) {
-    const Reference rest(scene.beam, 32);
+  void place(const Scene& scene, const Reference& rest) {
     check_depth(scene, rest);
     const PositionCoordinate<double> coordinate(BeamData<double>::of(scene.beam));
     const double low = coordinate(scene.s_min), high = coordinate(scene.s_max);

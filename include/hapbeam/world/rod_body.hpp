@@ -11,9 +11,8 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <stdexcept>
-#include <string>
 
+#include <hapbeam/check.hpp>
 #include <hapbeam/contact/box.hpp>
 #include <hapbeam/fem/motion/chain_motion.hpp>
 #include <hapbeam/fem/rod_system.hpp>
@@ -252,8 +251,7 @@ class RodBody {
       system_.set_goal();
       report = NewtonRaphson{}.solve(system_);
     }
-    if (!is_answer(report.status))
-      throw std::invalid_argument(std::string("rod: no shape at rest was found, ") + name(report.status));
+    if (!is_answer(report.status)) detail::refuse("rod: no shape at rest was found, %s", name(report.status));
   }
   using Increment = VectorOf<double, unknowns>;
   using Block = Eigen::Matrix<double, unknowns, unknowns>;

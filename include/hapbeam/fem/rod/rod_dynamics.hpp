@@ -19,8 +19,7 @@
 // Allocates and throws at construction; all else is noexcept and allocation-free, O(n).
 #pragma once
 
-#include <stdexcept>
-
+#include <hapbeam/check.hpp>
 #include <hapbeam/element/twisted_rod.hpp>
 #include <hapbeam/fem/mass_blocks.hpp>
 #include <hapbeam/fem/rod/end_path.hpp>
@@ -128,7 +127,7 @@ class ViscousRod : public ViscousHistory<S, 9, Elements, MaxElements> {
   ViscousRod(const Rod& rod, int elements, const Parts& parts)
       : History(rod.damping(), elements), elastic_(elements), viscous_(elements) {
     if (!this->none() && Element::unknowns != 7)
-      throw std::invalid_argument(
+      refuse(
           "rod damping: a viscous rod twists where its bend turns, and RoundRod does not; take TwistedRod");
     for (int e = 0; e < elements; ++e) viscous_[e] = elastic_[e] = parts.properties(e);
   }

@@ -7,11 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include <hapbeam/body/cut_piece.hpp>
 #include <hapbeam/body/rod_profile.hpp>
+#include <hapbeam/check.hpp>
 #include <hapbeam/element/rod/carried_frame.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
 #include <hapbeam/element/rod/round_tension.hpp>
@@ -55,14 +54,13 @@ class RodElements {
         surface_(rod) {
     if constexpr (!has_twist)
       if (!rod.arcs().empty() || !profile_.round())
-        throw std::invalid_argument(
+        detail::refuse(
             "rod: RoundRod takes rods that are straight by nature, with one bending stiffness for all "
-            "directions; take "
-            "TwistedRod");
+            "directions; take TwistedRod");
     if constexpr (has_twist)
       if (!rod.holds_twist())
-        throw std::invalid_argument(std::string("supports = ") + name(rod.left()) + ", " + name(rod.right()) +
-                                    ": TwistedRod turns about its axis, hold its twist at one end");
+        detail::refuse("supports = %s, %s: TwistedRod turns about its axis, hold its twist at one end",
+                       name(rod.left()), name(rod.right()));
     const bool even = natural_.straight() && profile_.smooth(),
                viscous = has_twist && rod.damping().viscous();
     round_ = even && profile_.round() && !viscous;
