@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -145,6 +146,14 @@ struct PartOf {
             part_end, [same](double) { return same; }, of) {}
 };
 
+/// Which one of some parts in a row holds s; the first or last one where it lies off them.
+template <class Parts, typename Scalar>
+std::size_t part_with(const Parts& parts, Scalar s) noexcept {
+  std::size_t k = 0;
+  while (k + 1 < parts.size() && parts[k].end <= s) ++k;
+  return k;
+}
+
 /// What a Beam and a Rod have alike.
 /// @tparam Body  the one or the other, with its word for itself   @tparam Arc  a part of the natural shape, with check()
 template <class Body, class SectionType, class MaterialType, class Arc>
@@ -206,9 +215,7 @@ class Slender {
 
   /// That which holds s [m], null where there are none.
   static const Part* part_at(const std::vector<Part>& parts, double s) noexcept {
-    std::size_t k = 0;
-    while (k + 1 < parts.size() && parts[k].end <= s) ++k;
-    return parts.empty() ? nullptr : &parts[k];
+    return parts.empty() ? nullptr : &parts[part_with(parts, s)];
   }
 
   double length_, thickness_, young_ = 0, density_ = 0;

@@ -42,7 +42,7 @@ class RodProfile {
   /// Stiffness of the section at s [m].
   RodStiffness at(Scalar s) const noexcept {
     const double x = static_cast<double>(s);
-    const Values k = parts_[part_at(x)].at(x);
+    const Values k = parts_[detail::part_with(parts_, x)].at(x);
     return {k[0], k[1], k[2], k[3]};
   }
 
@@ -50,7 +50,8 @@ class RodProfile {
   void apply(Scalar from, Scalar to, RodProperties<Scalar>& p) const noexcept {
     const detail::GaussRule& rule = detail::gauss_rule(p.number);
     const double a = static_cast<double>(from), l = static_cast<double>(to) - a;
-    const std::size_t first = part_at(a), last = part_at(a + l * (1 - 1e-12));
+    const std::size_t first = detail::part_with(parts_, a),
+                      last = detail::part_with(parts_, a + l * (1 - 1e-12));
     double begin = a, stretching = 0, twisting = 0;  // compliances
     p.soft[0] = p.soft[1] = 0;
     for (int g = 0; g < p.number; ++g) {
@@ -106,12 +107,6 @@ class RodProfile {
       round_ = round_ && std::abs(at.bending1 - at.bending2) <= 1e-12 * at.bending1;
     }
     parts_.push_back(part);
-  }
-
-  std::size_t part_at(double s) const noexcept {
-    std::size_t k = 0;
-    while (k + 1 < parts_.size() && parts_[k].end <= s) ++k;
-    return k;
   }
 
   /// Of the mean compliance between two places.

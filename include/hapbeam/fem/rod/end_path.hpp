@@ -17,7 +17,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <hapbeam/fem/rod/natural_rod.hpp>
+#include <hapbeam/body/natural_shape.hpp>
 #include <hapbeam/force_model.hpp>
 
 namespace hapbeam::detail {

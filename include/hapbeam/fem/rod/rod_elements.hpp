@@ -9,12 +9,12 @@
 #include <cmath>
 
 #include <hapbeam/body/cut_piece.hpp>
+#include <hapbeam/body/natural_shape.hpp>
 #include <hapbeam/body/rod_profile.hpp>
 #include <hapbeam/check.hpp>
 #include <hapbeam/element/rod/carried_frame.hpp>
 #include <hapbeam/element/rod/rod_tangent.hpp>
 #include <hapbeam/element/rod/round_tension.hpp>
-#include <hapbeam/fem/rod/natural_rod.hpp>
 #include <hapbeam/fem/rod/rod_lanes.hpp>
 #include <hapbeam/fem/rod/rod_loads.hpp>
 #include <hapbeam/fem/rod/rod_moments.hpp>

@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <hapbeam/body/natural_shape.hpp>
 #include <hapbeam/fem/loads.hpp>
-#include <hapbeam/fem/rod/natural_rod.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 
 namespace hapbeam {
