@@ -161,16 +161,13 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
 
   /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
   Scalar curvature(int i) const noexcept {
-    using std::nearbyint;
     using std::sqrt;
-    constexpr Scalar turn = Scalar(6.283185307179586476925);
     Scalar sum = 0, pieces = 0;
     for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
       const Node &a = nodes_[k], &b = nodes_[k + 1];
       const Scalar x = b.s + b.u - a.s - a.u, y = b.w - a.w;
-      const Scalar chord = detail::angle(y, x, sqrt(x * x + y * y));
-      const Scalar turns = turn * nearbyint(((a.theta + b.theta) / 2 + chord) * (1 / turn));
-      const Scalar p = a.theta + chord - turns, q = b.theta + chord - turns;
+      const Scalar chord = detail::angle_near(y, x, sqrt(x * x + y * y), -(a.theta + b.theta) / 2),
+                   p = a.theta + chord, q = b.theta + chord;
       sum += (k == i ? 4 * p + 2 * q : -2 * p - 4 * q) / (b.s - a.s);
       ++pieces;
     }

@@ -85,7 +85,8 @@ class Touch {
   /// Real-time: noexcept, no allocation, bounded: at most one press or push and one release; nothing without contact but for a
   /// beam that falls to rest.  With FemModel that is 96 linear solves, and two looks more for each of the four meshes of a push and
   /// for the release: with 64 elements at 0.1 µs an element and solve 0.68 ms.
-  [[nodiscard]] Result tick(const Vector& position, const Vector& shaft = Vector::Zero()) noexcept;
+  [[nodiscard]] Result tick(const Vector& position) noexcept { return tick(position, Vector::Zero()); }
+  [[nodiscard]] Result tick(const Vector& position, const Vector& shaft) noexcept;
 
   [[nodiscard]] bool pressing() const noexcept { return at_.mode > Mode::inside; }
   /// Whether there is friction.
@@ -98,8 +99,11 @@ class Touch {
 
   /// The contact of the beam as it lies now with the avatar, gone straight to a place from that of the last tick.
   /// @param position, shaft [m] as of tick()   Real-time: noexcept, no allocation, bounded; no press.
-  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(
-      const Vector& position, const Vector& shaft = Vector::Zero()) noexcept {
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position) noexcept {
+    return contact_at(position, Vector::Zero());
+  }
+  [[nodiscard]] hapbeam::Contact<Scalar, dimension> contact_at(const Vector& position,
+                                                               const Vector& shaft) noexcept {
     if (at_.mode == Mode::inside) return {};
     auto memory = at_.memory;
     return find_contact(detail::avatar_at(position, avatar_radius_, shaft), model_.shape(), volumes(),

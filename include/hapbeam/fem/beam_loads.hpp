@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include <hapbeam/angle.hpp>
 #include <hapbeam/element/element.hpp>
 #include <hapbeam/element/hermite.hpp>
 #include <hapbeam/fem/loads.hpp>
@@ -94,9 +95,7 @@ template <typename Scalar>
 Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
                      const ElementProperties<Scalar>& p, const Vector6<Scalar>& d, Vector6<Scalar>& r,
                      Matrix6<Scalar>* K) noexcept {
-  using std::atan2;
   using std::cos;
-  using std::nearbyint;
   using std::sin;
   using std::sqrt;
   using S = Scalar;
@@ -115,11 +114,8 @@ Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
     if (K) (*K)(node + 2, node + 2) -= stiffness(d[node + 2]);
     return f * d[node] + q * d[node + 1] + turns(d[node + 2]);
   }
-  const S l = p.length, x = l + d[3] - d[0], y = d[4] - d[1], i = 1 / sqrt(x * x + y * y), c = x * i,
-          s = y * i;
-  constexpr S turn = S(6.283185307179586476925);
-  S alpha = atan2(y, x);
-  alpha -= turn * nearbyint((alpha + (d[2] + d[5]) / 2) * (1 / turn));
+  const S l = p.length, x = l + d[3] - d[0], y = d[4] - d[1], chord = sqrt(x * x + y * y), i = 1 / chord,
+          c = x * i, s = y * i, alpha = detail::angle_near(y, x, chord, -(d[2] + d[5]) / 2);
   const S u = 1 - t, g1 = t * u * u, g2 = -t * t * u, c1 = u * (1 - 3 * t), c2 = t * (3 * t - 2),
           ca = -6 * t * u;
   const S v = -l * (g1 * (d[2] + alpha) + g2 * (d[5] + alpha)), theta = c1 * d[2] + c2 * d[5] + ca * alpha;
