@@ -161,12 +161,11 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
 
   /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
   Scalar curvature(int i) const noexcept {
-    using std::sqrt;
     Scalar sum = 0, pieces = 0;
     for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
       const Node &a = nodes_[k], &b = nodes_[k + 1];
       const Scalar x = b.s + b.u - a.s - a.u, y = b.w - a.w;
-      const Scalar chord = detail::angle_near(y, x, sqrt(x * x + y * y), -(a.theta + b.theta) / 2),
+      const Scalar chord = detail::angle_near(y, x, std::sqrt(x * x + y * y), -(a.theta + b.theta) / 2),
                    p = a.theta + chord, q = b.theta + chord;
       sum += (k == i ? 4 * p + 2 * q : -2 * p - 4 * q) / (b.s - a.s);
       ++pieces;
@@ -258,8 +257,7 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   /// - αβ + 2β²)/30, as in the elements. The last term is that of a circle. sin + sin³/6 approximates an angle.
   static Scalar arc(const Vector2<Scalar>& chord, const Vector2<Scalar>& from,
                     const Vector2<Scalar>& to) noexcept {
-    using std::sqrt;
-    const Scalar c = sqrt(chord.squaredNorm()), i = c > 0 ? 1 / c : Scalar(0);
+    const Scalar c = std::sqrt(chord.squaredNorm()), i = c > 0 ? 1 / c : Scalar(0);
     const auto angle = [&](const Vector2<Scalar>& v) {
       const Scalar sine = (chord.x() * v.y() - chord.y() * v.x()) * i;
       return sine * (1 + sine * sine / 6);

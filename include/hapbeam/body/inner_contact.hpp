@@ -21,8 +21,7 @@ namespace hapbeam::detail {
 /// up to 4 eps (L/l)³ beside a free end, here 1e-9 and 1e-6 in double, 1e-3 and 1e-2 in float.
 template <typename S>
 S shortest_element(S length) noexcept {
-  using std::sqrt;
-  const S by_round_off = 100 * sqrt(std::numeric_limits<S>::epsilon());
+  const S by_round_off = 100 * std::sqrt(std::numeric_limits<S>::epsilon());
   return length * (by_round_off > S(1e-3) ? by_round_off : S(1e-3));
 }
 
@@ -138,14 +137,13 @@ struct InnerContact : InnerRow<S, D> {
   /// @param is_plane  out: nearer to the centre than half of the reach a plane stands for the circle, for there the direction to the centre says nothing
   /// @return D
   S look_at_circle(S at, bool& is_plane) noexcept {
-    using std::sqrt;
     const Vector2<S>& t = this->tangent;
     const Vector2<S> off(this->moved.x() - (centre.x() - at), this->moved.y() - centre.y());
-    const S distance = sqrt(off.squaredNorm());
+    const S distance = std::sqrt(off.squaredNorm());
     // The centre may have passed the curve.
     const bool passed = (t.x() * off.y() - t.y() * off.x()) * side > 0;
     is_plane = passed || distance < this->reach / 2;
-    this->normal = is_plane ? Vector2<S>(side / sqrt(t.squaredNorm()) * Vector2<S>(t.y(), -t.x()))
+    this->normal = is_plane ? Vector2<S>(side / std::sqrt(t.squaredNorm()) * Vector2<S>(t.y(), -t.x()))
                             : Vector2<S>(off / distance);
     return is_plane ? this->normal.dot(off) : distance;
   }

@@ -48,7 +48,6 @@ class NaturalShape {
     Scalar curvature_a, curvature_b;  ///< there, within the piece [1/m]
   };
   Ends ends(Scalar from, Scalar to) const noexcept {
-    using std::sqrt;
     const Scalar l = to - from;
     const Piece* const arc = arc_at(from);
     const Scalar curvature = arc ? arc->curvature : Scalar(0);
@@ -57,7 +56,7 @@ class NaturalShape {
       return {chord_excess(half), -half, half, curvature, curvature};
     }
     const Displacement<Scalar> end = between(from, to);
-    const Scalar x = l + end.u, chord = sqrt(x * x + end.w * end.w),
+    const Scalar x = l + end.u, chord = std::sqrt(x * x + end.w * end.w),
                  angle = detail::angle_near(end.w, x, chord, -end.theta / 2);
     return {(end.u * (l + x) + end.w * end.w) / ((chord + l) * l), angle, end.theta + angle, curvature,
             curvature_before(to)};
@@ -95,9 +94,7 @@ class NaturalShape {
 
   /// Chord of an arc over its length, less 1:  sin x/x - 1,  x half of its angle.
   static Scalar chord_excess(Scalar x) noexcept {
-    using std::abs;
-    using std::sin;
-    if (abs(x) > 1) return sin(x) / x - 1;
+    if (std::abs(x) > 1) return std::sin(x) / x - 1;
     // Taylor's series
     const Scalar q = x * x, q2 = q * q, q4 = q2 * q2;
     return q *
@@ -108,15 +105,13 @@ class NaturalShape {
 
   /// Displacement of the end of a piece against its start, which it leaves with θ = 0.
   Displacement<Scalar> between(Scalar start, Scalar end) const noexcept {
-    using std::cos;
-    using std::sin;
     Displacement<Scalar> point{0, 0, 0};
     for_each_piece(start, end, [&](Scalar from, Scalar to, Scalar curvature) {
       const Scalar length = to - from, half = curvature * length / 2, direction = point.theta + half;
-      const Scalar excess = chord_excess(half), quarter = sin(direction / 2);
+      const Scalar excess = chord_excess(half), quarter = std::sin(direction / 2);
       // (1 + excess) cos(direction) - 1, without the cancellation
-      point.u += length * (excess * cos(direction) - 2 * quarter * quarter);
-      point.w -= length * (1 + excess) * sin(direction);
+      point.u += length * (excess * std::cos(direction) - 2 * quarter * quarter);
+      point.w -= length * (1 + excess) * std::sin(direction);
       point.theta += 2 * half;
     });
     return point;
@@ -165,15 +160,12 @@ class NaturalRod {
   }
   /// Goes a way s along a piece that begins at a node.
   static RodNode<Scalar> along(const RodNode<Scalar>& from, const Vector3& omega, Scalar s) noexcept {
-    using std::cos;
-    using std::sin;
-    using std::sqrt;
-    const Scalar square = omega.squaredNorm(), rate = sqrt(square), angle = rate * s;
+    const Scalar square = omega.squaredNorm(), rate = std::sqrt(square), angle = rate * s;
     RodNode<Scalar> to{from.s + s, from.r + s * from.tangent, from.tangent, from.director};
     if (angle == 0) return to;
     // sin x/x, (1 - cos x)/x² and (x - sin x)/x³, without cancellation where x is small
-    const Scalar x = angle * angle, half = sin(angle / 2);
-    const Scalar a = sin(angle) / angle, b = 2 * half * half / x,
+    const Scalar x = angle * angle, half = std::sin(angle / 2);
+    const Scalar a = std::sin(angle) / angle, b = 2 * half * half / x,
                  c = x < Scalar(0.01) ? (1 - x / 20 * (1 - x / 42)) / 6 : (1 - a) / x;
     const auto turned = [&](const Vector3& v) -> Vector3 {
       const Vector3 w = s * detail::cross3(omega, v);

@@ -81,14 +81,12 @@ struct NaturalPiece {
   }
   /// The end that moves goes along its tangent, and turns as it is curved there.
   void several(const typename NaturalShape<S>::Ends& ends, S length, S side, bool tip_moves) noexcept {
-    using std::cos;
-    using std::sin;
     const bool right_moves = (side > 0) == tip_moves;
     const S i = 1 / length, over = 1 / (1 + ends.shorter), rho = right_moves ? ends.b : ends.a,
             bends = right_moves ? ends.curvature_b : -ends.curvature_a;
     // Derivatives of the chord, and of its angle.
-    const S c = cos(rho), s = sin(rho), half = sin(rho / 2), turn = -s * i * over, rho1 = bends + turn,
-            turn2 = (c * s * i * over - c * rho1) * i * over;
+    const S c = std::cos(rho), s = std::sin(rho), half = std::sin(rho / 2), turn = -s * i * over,
+            rho1 = bends + turn, turn2 = (c * s * i * over - c * rho1) * i * over;
     const Changes both{ends.a + ends.b, 2 * turn + bends, 2 * turn2},
         apart{side * (ends.a - ends.b), tip_moves ? -bends : bends, 0};
     const auto over_length = [&](const Changes& a) {

@@ -185,12 +185,11 @@ class PieceChain {
     Vector along;                // it
 
     Chord(const Node& a, const Node& b) noexcept {
-      using std::sqrt;
       const Vector by = b.moved - a.moved;
       const S l = b.s - a.s;
       if constexpr (Turns) {
         const S x = l + by.x(), w = by.y();
-        length = sqrt(x * x + w * w);
+        length = std::sqrt(x * x + w * w);
         extension = (by.x() * (l + x) + w * w) / (length + std::abs(l));
         along = Vector(x, w) / length;
         angle = angle_near(w, x, length, S(-(a.theta + b.theta) / 2));

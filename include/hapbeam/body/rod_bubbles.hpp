@@ -111,7 +111,6 @@ class RodBubbles {
     return std::clamp(-off / (bends + round), -p_->length, p_->length);
   }
   void look(int k) noexcept {
-    using std::sqrt;
     Contact& contact = *contacts_[at(k)];
     Spot& spot = spots_[at(k)];
     spot.look(*p_, *a_, *b_, inner_.tension.value, contact.s - a_->s);
@@ -123,7 +122,7 @@ class RodBubbles {
     }
     const S along = contact.axis.nearest(contact.place);
     const Vector off = contact.place - contact.axis.at(along);
-    const S distance = sqrt(off.squaredNorm());
+    const S distance = std::sqrt(off.squaredNorm());
     const Vector side = contact.side - spot.u * spot.u.dot(contact.side);
     // The axis may have passed the curve.  Nearer to it than half of the reach a plane stands for the capsule: there the direction to the axis says nothing.
     if (off.dot(side) < 0 && 2 * distance > contact.reach) {
@@ -131,13 +130,13 @@ class RodBubbles {
       contact.gap = distance - contact.reach;
       spot.curved = Matrix::Identity() - contact.normal * contact.normal.transpose();
       if (along > 0 && along < 1) {
-        const Vector axis = contact.axis.way / sqrt(contact.axis.way.squaredNorm());
+        const Vector axis = contact.axis.way / std::sqrt(contact.axis.way.squaredNorm());
         spot.curved -= axis * axis.transpose();
       }
       spot.curved /= distance;
     } else {
       const S square = side.squaredNorm();
-      if (square > 0) contact.normal = -side / sqrt(square);
+      if (square > 0) contact.normal = -side / std::sqrt(square);
       contact.gap = contact.normal.dot(off) - contact.reach;
     }
   }

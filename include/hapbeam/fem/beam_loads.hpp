@@ -95,17 +95,16 @@ template <typename Scalar>
 Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
                      const ElementProperties<Scalar>& p, const Vector6<Scalar>& d, Vector6<Scalar>& r,
                      Matrix6<Scalar>* K) noexcept {
-  using std::cos;
-  using std::sin;
-  using std::sqrt;
   using S = Scalar;
   const S f = lambda * load.force.x(), q = lambda * load.force.y(), moment = lambda * load.moment,
           f_arm = lambda * load.arm.x(), q_arm = lambda * load.arm.y();
-  const auto couple = [&](S theta) { return moment - f_arm * sin(theta) - q_arm * cos(theta); };  // φ'
+  const auto couple = [&](S theta) {
+    return moment - f_arm * std::sin(theta) - q_arm * std::cos(theta);
+  };  // φ'
   const auto turns = [&](S theta) {
-    return moment * theta + f_arm * (cos(theta) - 1) - q_arm * sin(theta);
-  };                                                                                        // φ
-  const auto stiffness = [&](S theta) { return q_arm * sin(theta) - f_arm * cos(theta); };  // φ''
+    return moment * theta + f_arm * (std::cos(theta) - 1) - q_arm * std::sin(theta);
+  };                                                                                                  // φ
+  const auto stiffness = [&](S theta) { return q_arm * std::sin(theta) - f_arm * std::cos(theta); };  // φ''
   if (t == 0 || t == 1) {
     const int node = t == 0 ? 0 : 3;
     r[node] -= f;
@@ -114,7 +113,7 @@ Scalar subtract_load(const PointForce<Scalar>& load, Scalar t, Scalar lambda,
     if (K) (*K)(node + 2, node + 2) -= stiffness(d[node + 2]);
     return f * d[node] + q * d[node + 1] + turns(d[node + 2]);
   }
-  const S l = p.length, x = l + d[3] - d[0], y = d[4] - d[1], chord = sqrt(x * x + y * y), i = 1 / chord,
+  const S l = p.length, x = l + d[3] - d[0], y = d[4] - d[1], chord = std::sqrt(x * x + y * y), i = 1 / chord,
           c = x * i, s = y * i, alpha = detail::angle_near(y, x, chord, -(d[2] + d[5]) / 2);
   const S u = 1 - t, g1 = t * u * u, g2 = -t * t * u, c1 = u * (1 - 3 * t), c2 = t * (3 * t - 2),
           ca = -6 * t * u;

@@ -110,10 +110,6 @@ class BeamEnds {
 template <typename Scalar, class Nodes>
 void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, const EndSupport<Scalar>& right,
          Nodes& nodes) noexcept {
-  using std::atan2;
-  using std::cos;
-  using std::nearbyint;
-  using std::sin;
   constexpr Scalar whole_turn = Scalar(6.283185307179586476925);
   const Scalar length = nodes[nodes.size() - 1].s;
   const Displacement<Scalar> end = shape.at(length);
@@ -121,11 +117,12 @@ void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, cons
   Scalar turn = from[2];
   if (!left.held[2]) {
     const Scalar by_right = to[2] - end.theta;
-    turn = right.held[1] ? atan2(end.w, length + end.u) - atan2(to[1] - from[1], length + to[0] - from[0])
-                         : by_right;
-    if (right.held[2]) turn -= whole_turn * nearbyint((turn - by_right) / whole_turn);
+    turn = right.held[1]
+               ? std::atan2(end.w, length + end.u) - std::atan2(to[1] - from[1], length + to[0] - from[0])
+               : by_right;
+    if (right.held[2]) turn -= whole_turn * std::nearbyint((turn - by_right) / whole_turn);
   }
-  const Scalar c = cos(turn), s = sin(turn);
+  const Scalar c = std::cos(turn), s = std::sin(turn);
   for (int i = 0; i < nodes.size(); ++i) {
     const Scalar position = nodes[i].s;
     const Displacement<Scalar> at = shape.at(position);
@@ -141,19 +138,15 @@ void lay(const NaturalShape<Scalar>& shape, const EndSupport<Scalar>& left, cons
 template <typename Scalar, class Nodes>
 void bow(const EndSupport<Scalar>& left, const EndSupport<Scalar>& right, Scalar side,
          Nodes& nodes) noexcept {
-  using std::abs;
-  using std::cos;
-  using std::sin;
-  using std::sqrt;
   const int last = nodes.size() - 1;
-  const Scalar length = nodes[last].s, turn = nodes[0].theta, c = cos(turn), s = sin(turn);
+  const Scalar length = nodes[last].s, turn = nodes[0].theta, c = std::cos(turn), s = std::sin(turn);
   const Scalar x = length + right.goal[0] - left.goal[0], y = right.goal[1] - left.goal[1];
   const Scalar slack = length - (c * x - s * y), across = s * x + c * y;
   const Scalar round_off = 64 * std::numeric_limits<Scalar>::epsilon();
-  const bool placed_across = left.held[1] && right.held[1] && abs(across) > round_off * length,
-             facing = !right.held[2] || abs(right.goal[2] - turn) <= round_off * (1 + abs(turn));
+  const bool placed_across = left.held[1] && right.held[1] && std::abs(across) > round_off * length,
+             facing = !right.held[2] || std::abs(right.goal[2] - turn) <= round_off * (1 + std::abs(turn));
   if (!left.held[0] || !right.held[0] || placed_across || !facing || !(slack > round_off * length)) return;
-  const Scalar a = side * sqrt(2 * slack * length * Scalar(210. / 1024));
+  const Scalar a = side * std::sqrt(2 * slack * length * Scalar(210. / 1024));
   const auto slope = [a, length](Scalar position) {
     const Scalar t = position / length;
     return 32 * a * t * (1 - t) * (1 - 2 * t) / length;
@@ -184,16 +177,14 @@ bool push_down(Scalar up, Scalar down) noexcept {
 /// @param contact  arc position [m], negative where there is none   @param size  [m]   @param nodes  in and out
 template <typename Scalar, class Nodes>
 void nudge(Nodes& nodes, Scalar contact, Scalar size) noexcept {
-  using std::cos;
-  using std::sin;
   const Scalar length = nodes[nodes.size() - 1].s;
   for (auto& node : nodes) {
     // f = 16 t² (1 - t)² g(t), zero with its slope at both ends, and at the contact
     const Scalar t = node.s / length, r = 1 - t, a = 16 * size * t * r;
     const Scalar g = contact < 0 ? (3 + t) / Scalar(3.5) : 4 * (t - contact / length),
                  slope = contact < 0 ? 1 / Scalar(3.5) : Scalar(4);
-    node.u += a * t * r * g * sin(node.theta);
-    node.w += a * t * r * g * cos(node.theta);
+    node.u += a * t * r * g * std::sin(node.theta);
+    node.w += a * t * r * g * std::cos(node.theta);
     node.theta -= a * (2 * (1 - 2 * t) * g + t * r * slope) / length;
   }
 }

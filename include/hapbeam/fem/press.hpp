@@ -155,11 +155,10 @@ class PlacePush {
  private:
   template <class Way>
   static Response<Scalar> answer(Way& way, const Request& request) noexcept {
-    using std::abs;
     System& system = way.system_;
     const Scalar last = system.linear_reaction(), s = request.s;
-    if (way.single_valued_ && abs(request.d - system.displacement(way.rest_state_, s, request.normal)) <
-                                  abs(request.d - system.displacement(s, request.normal)))
+    if (way.single_valued_ && std::abs(request.d - system.displacement(way.rest_state_, s, request.normal)) <
+                                  std::abs(request.d - system.displacement(s, request.normal)))
       way.to_rest();
     const Response<Scalar> found = way.settle(last, 1, [&] { system.set_goal(request, last); });
     system.draw();

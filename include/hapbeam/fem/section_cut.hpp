@@ -119,14 +119,13 @@ SectionCut<Scalar, D> cut_element(SectionCut<Scalar, D> cut,
 template <class Element, class Stiffness, typename Scalar>
 InternalForces<Scalar> in_section(const SectionCut<Scalar, 2>& cut, Scalar theta, const Stiffness& stiffness,
                                   Scalar thickness) noexcept {
-  using std::abs;
   constexpr bool turns = any_rotation<Element>;
   const Vector2<Scalar> t = turns ? direction(-theta) : Vector2<Scalar>(1, 0);
   Scalar shear = t.x() * cut.force.y() - t.y() * cut.force.x();
   if (!turns && membrane_feels_slope<Element>) shear += theta * cut.force.x();
   const Scalar normal = cut.force.dot(t), strain = normal / stiffness.axial;
   return {normal, shear, cut.moment, strain,
-          abs(strain) + abs(cut.moment) / stiffness.bending * thickness / 2};
+          std::abs(strain) + std::abs(cut.moment) / stiffness.bending * thickness / 2};
 }
 
 /// How far a rod's surface is from its axis, over the radii of gyration √(EI/EA): the same along a taper.
@@ -144,14 +143,12 @@ struct RodSurface {
   template <class Stiffness>
   InternalForces<Scalar, 3> in_section(const SectionCut<Scalar, 3>& cut, const VectorOf<Scalar, 3>& d1,
                                        const VectorOf<Scalar, 3>& d3, const Stiffness& k) const noexcept {
-    using std::abs;
-    using std::sqrt;
     const VectorOf<Scalar, 3> d2 = cross3<Scalar>(d3, d1);
     const Scalar normal = cut.force.dot(d3), m1 = cut.moment.dot(d1), m2 = cut.moment.dot(d2),
                  strain = normal / static_cast<Scalar>(k.axial);
     // Largest strain of bending.
-    const Scalar a = along2 * abs(m1) / sqrt(static_cast<Scalar>(k.bending1 * k.axial)),
-                 b = along1 * abs(m2) / sqrt(static_cast<Scalar>(k.bending2 * k.axial));
+    const Scalar a = along2 * std::abs(m1) / std::sqrt(static_cast<Scalar>(k.bending1 * k.axial)),
+                 b = along1 * std::abs(m2) / std::sqrt(static_cast<Scalar>(k.bending2 * k.axial));
     return {normal,
             cut.force.dot(d1),
             cut.force.dot(d2),
@@ -159,7 +156,7 @@ struct RodSurface {
             m2,
             cut.moment.dot(d3),
             strain,
-            abs(strain) + (corners ? a + b : sqrt(a * a + b * b))};
+            std::abs(strain) + (corners ? a + b : std::sqrt(a * a + b * b))};
   }
 };
 

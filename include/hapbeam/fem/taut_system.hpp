@@ -108,11 +108,10 @@ class TautSystem {
   int elements() const noexcept { return 2; }
 
   Iteration<Scalar> iterate() noexcept {
-    using std::sqrt;
     const Condensed at = condensed_ = condense();
     const Scalar square = d_ * d_, longer = at.k1 * square / 2;
     const Scalar doubled = at.k * square - 2 * tension_ * longer + tension_ * tension_ * flexibility_;
-    size_ = sqrt((std::max)(doubled, Scalar(0)));
+    size_ = std::sqrt((std::max)(doubled, Scalar(0)));
     if (!(std::isfinite(doubled) && std::isfinite(at.k2))) return {Status::non_finite, 0};
     if (!between_ends_) return {Status::ok, 0};
     if (known_.s != contact_s_) before_ = known_;
@@ -120,7 +119,7 @@ class TautSystem {
     const Scalar change = fit(known_, d_);
     tension_ += change;
     return {std::isfinite(tension_) ? Status::ok : Status::non_finite,
-            std::abs(change) * sqrt(flexibility_ + 2 * known_.beta * longer)};
+            std::abs(change) * std::sqrt(flexibility_ + 2 * known_.beta * longer)};
   }
 
   /// Computes the shape that belongs to tension and d, and its force.
@@ -161,13 +160,12 @@ class TautSystem {
   }
   /// What the section at s carries in the shape of lay(); at the contact, on the side of segment e.   @param thickness [m]
   InternalForces<Scalar> internal_forces(int e, Scalar s, Scalar thickness) const noexcept {
-    using std::abs;
     const Scalar at = (std::min)((std::max)(s, Scalar(0)), length_);
     const bool right = beyond(e + 1, at);
     const auto c = place(right, at);
     const Scalar moment = -c.bend * force_unit_ * length_, strain = tension_ * flexibility_;
     return {tension_ * force_unit_, (right ? c.shear : -c.shear) * force_unit_, moment, strain,
-            abs(strain) + abs(c.bend) / length_ * thickness / 2};
+            std::abs(strain) + std::abs(c.bend) / length_ * thickness / 2};
   }
 
  private:

@@ -94,8 +94,7 @@ struct RodRoundContact {
   using View = RoundView<Scalar, 3>;
   /// @param end  -1 or +1 where the curve begins or ends at the node, 0 within
   View look(const Node& node, int end) const noexcept {
-    using std::sqrt;
-    const Scalar length = sqrt(node.tangent.squaredNorm());
+    const Scalar length = std::sqrt(node.tangent.squaredNorm());
     const Vector t = node.tangent / length, to_tip = capsule.axis.tip - node.r, &way = capsule.axis.way;
     // Both nearest points of a line and a line; where they are nearly parallel the node itself is touched.
     const Scalar squared = way.squaredNorm(), leans = t.dot(way), aside = squared - leans * leans;
@@ -108,7 +107,7 @@ struct RodRoundContact {
     const bool past_end = Scalar(end) * along > 0;
     if (past_end) along = 0;
     const Vector at = node.r + along * t, w = capsule.axis.at(capsule.axis.nearest(at)) - at;
-    const Scalar distance = sqrt(w.squaredNorm());
+    const Scalar distance = std::sqrt(w.squaredNorm());
     const Vector normal = distance > 0 ? Vector(w / distance) : facing(t);
     return {normal, std::copysign(distance, normal.dot(capsule.normal)), along / length, past_end};
   }

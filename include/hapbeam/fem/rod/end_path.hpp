@@ -32,9 +32,6 @@ Eigen::Matrix<S, 3, 3> axes_of(const RodNode<S>& node) noexcept {
 /// From one node to another, by no more than half a turn [rad].
 template <typename S>
 VectorOf<S, 3> rotation_between(const RodNode<S>& from, const RodNode<S>& to) noexcept {
-  using std::atan2;
-  using std::copysign;
-  using std::sqrt;
   using Vector3 = VectorOf<S, 3>;
   const Eigen::Matrix<S, 3, 3> R = axes_of(to) * axes_of(from).transpose();
   // 4 (cos α/2, sin α/2 n) times one of its own components, the largest: four ways to write it, of which one has all digits.
@@ -49,22 +46,21 @@ VectorOf<S, 3> rotation_between(const RodNode<S>& from, const RodNode<S>& to) no
     v = R.col(k) + R.row(k).transpose();
     v[k] = own;
   }
-  const S sine = sqrt(v.squaredNorm());
-  return sine > 0 ? Vector3(v * (2 * copysign(S(1), w) * atan2(sine, std::abs(w)) / sine)) : Vector3::Zero();
+  const S sine = std::sqrt(v.squaredNorm());
+  return sine > 0 ? Vector3(v * (2 * std::copysign(S(1), w) * std::atan2(sine, std::abs(w)) / sine))
+                  : Vector3::Zero();
 }
 /// By what a director that is carried from the unit vector `from` to the direction of a tangent turns as that moves.
 template <typename S>
 VectorOf<S, 3> holonomy(const VectorOf<S, 3>& from, const VectorOf<S, 3>& tangent) noexcept {
-  using std::sqrt;
-  const S i = 1 / sqrt(tangent.squaredNorm());
+  const S i = 1 / std::sqrt(tangent.squaredNorm());
   const VectorOf<S, 3> u = i * tangent;
   return cross3(from, u) * (i / (1 + from.dot(u)));
 }
 /// Its symmetric derivative.
 template <typename S>
 Eigen::Matrix<S, 3, 3> holonomy_change(const VectorOf<S, 3>& from, const VectorOf<S, 3>& tangent) noexcept {
-  using std::sqrt;
-  const S i = 1 / sqrt(tangent.squaredNorm());
+  const S i = 1 / std::sqrt(tangent.squaredNorm());
   const VectorOf<S, 3> u = i * tangent, k = holonomy(from, tangent),
                        q = i * ((from + u) / (1 + from.dot(u)) + u);
   return (k * q.transpose() + q * k.transpose()) / 2;

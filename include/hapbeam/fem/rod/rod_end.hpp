@@ -177,14 +177,13 @@ class RodEnd {
   };
   template <class Residual, class Block>
   Scalar add(const Springs& of, const Node& node, Residual& r, Block& K) const noexcept {
-    using std::sqrt;
     constexpr bool has_twist = std::decay_t<Residual>::RowsAtCompileTime == 7;
     const Vector3 x = of.axes.transpose() * (node.r - of.at.r), springs = of.places * place_,
                   force = springs.cwiseProduct(x);
     r.template segment<3>(0) += of.axes * force;
     K.template block<3, 3>(0, 0) += of.axes * springs.asDiagonal() * of.axes.transpose();
     Scalar energy = force.dot(x) / 2;
-    const Scalar i = 1 / sqrt(node.tangent.squaredNorm());
+    const Scalar i = 1 / std::sqrt(node.tangent.squaredNorm());
     const Vector3 u = i * node.tangent, d3 = of.axes.col(2);
     if (across_[0] > 0 || across_[1] > 0) {
       // V = s q by u; then u = r'/|r'|.

@@ -39,15 +39,13 @@ class PositionCoordinate {
       : length_(beam.length), left_(power(beam.left)), right_(power(beam.right)) {}
 
   Scalar operator()(Scalar s) const noexcept {
-    using std::log;
     const Scalar t = s / length_;
-    return left_ > 0 ? right_ > 0 ? log(t / (1 - t)) : log(t) : -log(1 - t);
+    return left_ > 0 ? right_ > 0 ? std::log(t / (1 - t)) : std::log(t) : -std::log(1 - t);
   }
   /// s at x
   Scalar inverse(Scalar x) const noexcept {
-    using std::exp;
-    if (left_ > 0) return length_ * (right_ > 0 ? 1 / (1 + exp(-x)) : exp(x));
-    return length_ * (1 - exp(-x));
+    if (left_ > 0) return length_ * (right_ > 0 ? 1 / (1 + std::exp(-x)) : std::exp(x));
+    return length_ * (1 - std::exp(-x));
   }
   /// dx/ds [1/m]
   Scalar derivative(Scalar s) const noexcept {
@@ -83,17 +81,13 @@ class DepthCoordinate {
       : rho_(std::sqrt(beam.bending_stiffness / beam.axial_stiffness) / 2), symmetric_(symmetric) {}
 
   Scalar operator()(Scalar e) const noexcept {
-    using std::log1p;
-    using std::sqrt;
-    const Scalar t = e / rho_, y = log1p(t * t);
-    return symmetric_ ? y : t < 0 ? -sqrt(y) : sqrt(y);
+    const Scalar t = e / rho_, y = std::log1p(t * t);
+    return symmetric_ ? y : t < 0 ? -std::sqrt(y) : std::sqrt(y);
   }
   /// e at y, not negative where symmetric
   Scalar inverse(Scalar y) const noexcept {
-    using std::expm1;
-    using std::sqrt;
-    if (symmetric_) return rho_ * sqrt(expm1(y));
-    return (y < 0 ? -rho_ : rho_) * sqrt(expm1(y * y));
+    if (symmetric_) return rho_ * std::sqrt(std::expm1(y));
+    return (y < 0 ? -rho_ : rho_) * std::sqrt(std::expm1(y * y));
   }
   /// ½ e dy/de, given y(e)
   Scalar half_log_derivative(Scalar e, Scalar y) const noexcept {

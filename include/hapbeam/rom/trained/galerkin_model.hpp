@@ -150,8 +150,6 @@ Response<Scalar> GalerkinModel<Scalar, Nodes>::press(const Press<Scalar>& reques
 
 template <typename Scalar, class Nodes>
 Response<Scalar> GalerkinModel<Scalar, Nodes>::respond(const Press<Scalar>& request, Point& at) noexcept {
-  using std::exp;
-  using std::isfinite;
   iterations_ = 0;
   at.beyond = 1;
   if (!this->valid(request)) return {0, Status::invalid_request};
@@ -162,19 +160,15 @@ Response<Scalar> GalerkinModel<Scalar, Nodes>::respond(const Press<Scalar>& requ
   detail::combine(trained_->table.data(), trained_->row_size(), detail::padded(4 * m), at.lx,
                   trained_->data.positions, at.column);
   const Scalar scale = trained_->position.scale(at.press.s);
-  const Scalar stiffness = m == 1 ? (along(at, 0), exp(at.f) / scale) : balance(at, scale);
+  const Scalar stiffness = m == 1 ? (along(at, 0), std::exp(at.f) / scale) : balance(at, scale);
   const Scalar force = stiffness * at.press.d;
-  if (!isfinite(force)) return {0, Status::non_finite};
+  if (!std::isfinite(force)) return {0, Status::non_finite};
   const bool in_range = nearest.s == request.s && nearest.d == request.d;
   return {force, in_range ? Status::ok : Status::out_of_range};
 }
 
 template <typename Scalar, class Nodes>
 Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
-  using std::abs;
-  using std::exp;
-  using std::expm1;
-  using std::sqrt;
   const Scalar d = at.press.d, N0 = trained_->tension.unit(), z_max = trained_->z.high();
   const Scalar flexibility = trained_->data.beam.length / trained_->data.beam.axial_stiffness;
   const Scalar q = d * d / (2 * flexibility * N0 * N0 * scale);
@@ -184,16 +178,17 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
   Scalar k = 0;
   for (; iterations_ < max_iterations; ++iterations_) {
     along(at, z);
-    const Scalar ratio = exp(at.f - z), part = q * ratio, growth = expm1(z), phi = part * at.by_z - growth;
+    const Scalar ratio = std::exp(at.f - z), part = q * ratio, growth = std::expm1(z),
+                 phi = part * at.by_z - growth;
     (phi > 0 ? low : high) = z;
     k = ratio * (growth + 1) / scale;
     if (low == z_max) break;
     const Scalar less = at.by_z - 1, falls = growth + 1 - part * (at.by_z * less + at.by_zz),
                  bends = growth + 1 - part * (at.by_z * less * less + at.by_zz * (3 * at.by_z - 2));
     const Scalar newton = phi / falls, curve = newton * bends / (2 * falls);
-    const Scalar step = abs(curve) < Scalar(0.25) ? newton / (1 + curve) : newton;
+    const Scalar step = std::abs(curve) < Scalar(0.25) ? newton / (1 + curve) : newton;
     const Scalar next = (std::min)((std::max)(z + step, Scalar(0)), z_max);
-    if (abs(step) <= settled) {
+    if (std::abs(step) <= settled) {
       const Scalar way = next - z, change = way * (at.by_z + way / 2 * at.by_zz);
       at.f += change;
       at.by_z += way * at.by_zz;
@@ -211,7 +206,7 @@ Scalar GalerkinModel<Scalar, Nodes>::balance(Point& at, Scalar scale) noexcept {
   const Scalar Nm = trained_->data.tension, string = string_at(at.press.s).stiffness;
   const Scalar b = k * at.by_z / (N0 + Nm) - string, half = d * d / (2 * flexibility * Nm);
   const Scalar P = half * string, Q = half * b;
-  Scalar r = (std::max)(sqrt(P) + std::cbrt((std::max)(Q, Scalar(0))), Scalar(1));
+  Scalar r = (std::max)(std::sqrt(P) + std::cbrt((std::max)(Q, Scalar(0))), Scalar(1));
   for (; iterations_ < max_iterations; ++iterations_) {
     const Scalar step = (r * (r * r - P) - Q) / (3 * r * r - P);
     if (!(step > 0)) break;

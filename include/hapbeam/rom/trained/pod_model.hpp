@@ -110,7 +110,6 @@ Response<Scalar> PodModel<Scalar, Nodes>::press(const Press<Scalar>& request) no
 
 template <typename Scalar, class Nodes>
 Response<Scalar> PodModel<Scalar, Nodes>::respond(const Press<Scalar>& request, Point& at) const noexcept {
-  using std::isfinite;
   if (!this->valid(request)) return {0, Status::invalid_request};
   at.press = this->range().nearest(request);
   this->weigh(at.press.s, at.lx);
@@ -118,7 +117,7 @@ Response<Scalar> PodModel<Scalar, Nodes>::respond(const Press<Scalar>& request, 
   descend(at);
   Scalar force = at.force();
   if (at.press.d == request.d) {
-    if (!isfinite(force)) return {0, Status::non_finite};
+    if (!std::isfinite(force)) return {0, Status::non_finite};
     return {force, at.press.s == request.s ? Status::ok : Status::out_of_range};
   }
   Point nearby = at;
@@ -128,7 +127,7 @@ Response<Scalar> PodModel<Scalar, Nodes>::respond(const Press<Scalar>& request, 
   nearby.press.d = at.press.d - step, descend(nearby);
   stiffness = (std::max)((stiffness - nearby.force()) / (2 * step), Scalar(0));
   force += stiffness * (detail::bounded(request.d, trained_->data.beam.length) - at.press.d);
-  if (!isfinite(force)) return {0, Status::non_finite};
+  if (!std::isfinite(force)) return {0, Status::non_finite};
   return {force, Status::out_of_range};
 }
 
