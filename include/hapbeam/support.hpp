@@ -43,23 +43,6 @@ constexpr const char* name(Support support) noexcept {
   return "unknown";
 }
 
-namespace detail {
-
-inline constexpr double held = std::numeric_limits<double>::infinity();
-
-/// @throws std::invalid_argument where a beam with these ends is a mechanism
-[[gnu::cold]] inline void check_supports(Support left, Support right) {
-  const char* why = nullptr;
-  const int held_w = fixes_w(left) + fixes_w(right);
-  const bool held_theta = fixes_theta(left) || fixes_theta(right);
-  if (!fixes_u(left) && !fixes_u(right)) why = "slides along its axis; hold u at one end";
-  if (held_w == 0) why = "moves across its axis; hold w at one end";
-  if (held_w == 1 && !held_theta) why = "turns about its only hinge; hold theta or the other end";
-  if (why) refuse("supports = %s, %s: the beam is a mechanism, it %s", name(left), name(right), why);
-}
-
-}  // namespace detail
-
 /// Stiffness against each motion of an end; infinity holds it, 0 leaves it free.  The moment of a turn by α is sin α times its
 /// stiffness: most at a quarter of a turn, none at half a turn.  That of a twist is proportional to its angle.
 struct RodSupport {
@@ -70,6 +53,7 @@ struct RodSupport {
   double turn2;   ///< [N·m/rad] about d2
   double twist;   ///< [N·m/rad] of the section about the tangent
 
+  static constexpr double held = std::numeric_limits<double>::infinity();
   static const RodSupport free;     ///< not held at all
   static const RodSupport clamped;  ///< place, direction and twist
   static const RodSupport hinged;   ///< place: a ball joint
@@ -101,12 +85,10 @@ struct RodSupport {
 };
 
 inline constexpr RodSupport RodSupport::free{0, 0, 0, 0, 0, 0};
-inline constexpr RodSupport RodSupport::clamped{detail::held, detail::held, detail::held,
-                                                detail::held, detail::held, detail::held};
-inline constexpr RodSupport RodSupport::hinged{detail::held, detail::held, detail::held, 0, 0, 0};
-inline constexpr RodSupport RodSupport::cardan{detail::held, detail::held, detail::held, 0, 0, detail::held};
-inline constexpr RodSupport RodSupport::sliding{detail::held, detail::held, 0,
-                                                detail::held, detail::held, detail::held};
+inline constexpr RodSupport RodSupport::clamped{held, held, held, held, held, held};
+inline constexpr RodSupport RodSupport::hinged{held, held, held, 0, 0, 0};
+inline constexpr RodSupport RodSupport::cardan{held, held, held, 0, 0, held};
+inline constexpr RodSupport RodSupport::sliding{held, held, 0, held, held, held};
 
 /// Whether the end resists a turn of the section about the tangent.
 constexpr bool holds_twist(const RodSupport& support) noexcept { return support.twist > 0; }
@@ -148,6 +130,17 @@ struct RodPose {
 enum class RodSide { left, right };
 
 namespace detail {
+
+/// @throws std::invalid_argument where a beam with these ends is a mechanism
+[[gnu::cold]] inline void check_supports(Support left, Support right) {
+  const char* why = nullptr;
+  const int held_w = fixes_w(left) + fixes_w(right);
+  const bool held_theta = fixes_theta(left) || fixes_theta(right);
+  if (!fixes_u(left) && !fixes_u(right)) why = "slides along its axis; hold u at one end";
+  if (held_w == 0) why = "moves across its axis; hold w at one end";
+  if (held_w == 1 && !held_theta) why = "turns about its only hinge; hold theta or the other end";
+  if (why) refuse("supports = %s, %s: the beam is a mechanism, it %s", name(left), name(right), why);
+}
 
 /// Whether a rod with these ends, at d3 of the same direction, is no mechanism.
 constexpr bool hold_rod(const RodSupport& left, const RodSupport& right) noexcept {

@@ -107,12 +107,6 @@ struct OneSection {
   }
 };
 
-}  // namespace detail
-
-}  // namespace hapbeam
-
-namespace hapbeam::detail {
-
 template <class Element, typename Scalar>
 class BeamPieces {
  public:
@@ -155,4 +149,6 @@ class BeamPieces {
   Scalar length_;
 };
 
-}  // namespace hapbeam::detail
+}  // namespace detail
+
+}  // namespace hapbeam

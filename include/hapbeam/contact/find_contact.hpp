@@ -54,6 +54,34 @@ struct Avatar<Scalar, 3> {
   }
 };
 
+/// The contact of avatar and beam, or, without contact, the nearest point.
+/// @tparam D  2 | 3
+template <typename Scalar, int D = 2>
+struct Contact {
+  bool touching = false;
+  bool past_end = false;  ///< the avatar's centre lies beyond an end of the centreline
+  int side = 1;           ///< +1 or -1: where the beam is touched from; a rod has one side, +1
+  int segment = -1;       ///< piece of the centreline; -1: no answer, all else is zero
+  Scalar s = 0;           ///< [m] arc position of the foot point
+  Scalar depth = 0;       ///< [m] penetration; negative: the gap
+  VectorOf<Scalar, D> foot = VectorOf<Scalar, D>::Zero();   ///< [m] nearest point of the centreline
+  VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();  ///< [m] on the surface, foot + normal thickness/2
+  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, out of the beam on the touched side
+};
+
+/// State from tick to tick.  Starts empty.
+/// @tparam D  2 | 3
+template <typename Scalar, int D = 2>
+struct ContactMemory {
+  PlaceOf<Scalar, D> place = Avatar<Scalar, D>{}.place();  ///< [m] where the avatar was
+  bool known = false;                                      ///< place is valid
+  bool touching = false;                                   ///< the avatar touched the beam
+  bool through = false;  ///< touching, in a plane: its centre beyond the centreline
+  int side = 1;          ///< touching, in a plane: from this side
+  Scalar s = 0;          ///< [m] touching, in space: there
+  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< touching, in space: along this one
+};
+
 namespace detail {
 
 /// @param shaft  of a capsule in space
@@ -85,38 +113,6 @@ inline constexpr double most_radius = 1000;
     reject(field, radius, "m",
            ("0 to " + number(most_radius * length) + " m, a thousand lengths of the beam").c_str());
 }
-
-}  // namespace detail
-
-/// The contact of avatar and beam, or, without contact, the nearest point.
-/// @tparam D  2 | 3
-template <typename Scalar, int D = 2>
-struct Contact {
-  bool touching = false;
-  bool past_end = false;  ///< the avatar's centre lies beyond an end of the centreline
-  int side = 1;           ///< +1 or -1: where the beam is touched from; a rod has one side, +1
-  int segment = -1;       ///< piece of the centreline; -1: no answer, all else is zero
-  Scalar s = 0;           ///< [m] arc position of the foot point
-  Scalar depth = 0;       ///< [m] penetration; negative: the gap
-  VectorOf<Scalar, D> foot = VectorOf<Scalar, D>::Zero();   ///< [m] nearest point of the centreline
-  VectorOf<Scalar, D> point = VectorOf<Scalar, D>::Zero();  ///< [m] on the surface, foot + normal thickness/2
-  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< unit, out of the beam on the touched side
-};
-
-/// State from tick to tick.  Starts empty.
-/// @tparam D  2 | 3
-template <typename Scalar, int D = 2>
-struct ContactMemory {
-  PlaceOf<Scalar, D> place = Avatar<Scalar, D>{}.place();  ///< [m] where the avatar was
-  bool known = false;                                      ///< place is valid
-  bool touching = false;                                   ///< the avatar touched the beam
-  bool through = false;  ///< touching, in a plane: its centre beyond the centreline
-  int side = 1;          ///< touching, in a plane: from this side
-  Scalar s = 0;          ///< [m] touching, in space: there
-  VectorOf<Scalar, D> normal = VectorOf<Scalar, D>::Zero();  ///< touching, in space: along this one
-};
-
-namespace detail {
 
 /// The contact's place on the beam.   @param nearest  its index within the line   @param first  index of the line's first piece in the whole
 /// @param begins, ends  whether the line holds the beam's ends   @return unit tangent of the centreline there

@@ -94,49 +94,6 @@ Contact<Scalar, 3> contact_at(const NearestPoint<Scalar, 3>& nearest, const Cent
                     avatar.place(), reach, memory);
 }
 
-}  // namespace detail
-
-/// The avatar against the deformed rod: depth = radius + thickness/2 - distance of the avatar's axis from the centreline, and more
-/// where the avatar has gone through the centreline since the last tick: then all of the way along the normal before.  No step up
-/// to most_looks/4 diameters of rod and avatar passes through unseen.  Contact ends when depth <= 0.
-/// A position that is not finite, or too large to square, is answered with segment -1 and changes no memory.
-/// @param volumes    refitted to this centreline   @param thickness  [m] >= 0
-/// @param memory     of the same avatar and rod, in and out
-/// Real-time: noexcept, no allocation, bounded; mostly O(log n).
-template <typename Scalar>
-[[nodiscard]] Contact<Scalar, 3> find_contact(const Avatar<Scalar, 3>& avatar,
-                                              const Centreline<Scalar, 3>& centreline,
-                                              const BoundingVolumes<Scalar, 3>& volumes, Scalar thickness,
-                                              ContactMemory<Scalar, 3>& memory) noexcept {
-  const Shaft<Scalar> axis = avatar.place();
-  const Scalar reach = avatar.radius + thickness / 2;
-  const NearestPoint<Scalar, 3> nearest = volumes.nearest(centreline, axis);
-  if (nearest.segment < 0) return {};
-  const auto contact_at = [&](const NearestPoint<Scalar, 3>& at, const Shaft<Scalar>& where) {
-    return detail::rod_contact_at(at, where, centreline, memory.normal, reach, thickness);
-  };
-  Contact<Scalar, 3> contact = contact_at(nearest, axis);
-  if (const Scalar step = detail::step_past(memory, axis, reach, nearest); step > 0) {
-    const int looks = static_cast<int>((std::min)(std::ceil(2 * step / reach), Scalar(detail::most_looks)));
-    for (int k = 1; k < looks; ++k) {
-      const Scalar t = Scalar(k) / Scalar(looks);
-      const Shaft<Scalar> on_way{memory.place.tip + t * (axis.tip - memory.place.tip),
-                                 memory.place.way + t * (axis.way - memory.place.way)};
-      const NearestPoint<Scalar, 3> there = volumes.nearest(centreline, on_way);
-      if (there.segment < 0 || !(there.at.distance_squared < reach * reach)) continue;
-      Contact<Scalar, 3> first = contact_at(there, on_way);
-      const VectorOf<Scalar, 3> way = axis.at(on_way.nearest(first.foot)) - first.foot;
-      first.depth = reach - first.normal.dot(way);
-      // What still lies on that side is found there.
-      if (first.depth > 0 && !(contact.touching && contact.normal.dot(first.normal) > 0)) contact = first;
-      break;
-    }
-  }
-  return detail::remembered(contact, axis, reach, memory);
-}
-
-namespace detail {
-
 /// The nearest point of a part that runs along x, to q.
 template <typename Scalar>
 NearestPoint<Scalar> nearest_along_x(const Centreline<Scalar>& line, const Vector2<Scalar>& q) noexcept {
@@ -246,5 +203,44 @@ template <class Model, typename Scalar = typename Model::Scalar, int D = dimensi
 }
 
 }  // namespace detail
+
+/// The avatar against the deformed rod: depth = radius + thickness/2 - distance of the avatar's axis from the centreline, and more
+/// where the avatar has gone through the centreline since the last tick: then all of the way along the normal before.  No step up
+/// to most_looks/4 diameters of rod and avatar passes through unseen.  Contact ends when depth <= 0.
+/// A position that is not finite, or too large to square, is answered with segment -1 and changes no memory.
+/// @param volumes    refitted to this centreline   @param thickness  [m] >= 0
+/// @param memory     of the same avatar and rod, in and out
+/// Real-time: noexcept, no allocation, bounded; mostly O(log n).
+template <typename Scalar>
+[[nodiscard]] Contact<Scalar, 3> find_contact(const Avatar<Scalar, 3>& avatar,
+                                              const Centreline<Scalar, 3>& centreline,
+                                              const BoundingVolumes<Scalar, 3>& volumes, Scalar thickness,
+                                              ContactMemory<Scalar, 3>& memory) noexcept {
+  const Shaft<Scalar> axis = avatar.place();
+  const Scalar reach = avatar.radius + thickness / 2;
+  const NearestPoint<Scalar, 3> nearest = volumes.nearest(centreline, axis);
+  if (nearest.segment < 0) return {};
+  const auto contact_at = [&](const NearestPoint<Scalar, 3>& at, const Shaft<Scalar>& where) {
+    return detail::rod_contact_at(at, where, centreline, memory.normal, reach, thickness);
+  };
+  Contact<Scalar, 3> contact = contact_at(nearest, axis);
+  if (const Scalar step = detail::step_past(memory, axis, reach, nearest); step > 0) {
+    const int looks = static_cast<int>((std::min)(std::ceil(2 * step / reach), Scalar(detail::most_looks)));
+    for (int k = 1; k < looks; ++k) {
+      const Scalar t = Scalar(k) / Scalar(looks);
+      const Shaft<Scalar> on_way{memory.place.tip + t * (axis.tip - memory.place.tip),
+                                 memory.place.way + t * (axis.way - memory.place.way)};
+      const NearestPoint<Scalar, 3> there = volumes.nearest(centreline, on_way);
+      if (there.segment < 0 || !(there.at.distance_squared < reach * reach)) continue;
+      Contact<Scalar, 3> first = contact_at(there, on_way);
+      const VectorOf<Scalar, 3> way = axis.at(on_way.nearest(first.foot)) - first.foot;
+      first.depth = reach - first.normal.dot(way);
+      // What still lies on that side is found there.
+      if (first.depth > 0 && !(contact.touching && contact.normal.dot(first.normal) > 0)) contact = first;
+      break;
+    }
+  }
+  return detail::remembered(contact, axis, reach, memory);
+}
 
 }  // namespace hapbeam

@@ -21,15 +21,6 @@
 
 namespace hapbeam {
 
-namespace detail {
-
-template <class Element, typename Scalar, int Most>
-struct TouchedOf<Element, Scalar, Most, std::enable_if_t<dimension_of<Element> == 3>> {
-  using Type = TouchedRod<Element, Scalar, Most>;
-};
-
-}  // namespace detail
-
 template <class ElementType, typename ScalarType, int Elements, int MaxElements>
 class RodChain {
  public:
@@ -365,6 +356,11 @@ template <class Element, typename Scalar, int Elements, int MaxElements>
 using RodSystem = ChainSystem<RodChain<Element, Scalar, Elements, MaxElements>>;
 
 namespace detail {
+
+template <class Element, typename Scalar, int Most>
+struct TouchedOf<Element, Scalar, Most, std::enable_if_t<dimension_of<Element> == 3>> {
+  using Type = TouchedRod<Element, Scalar, Most>;
+};
 
 template <class Element>
 struct SystemOf<Element, std::enable_if_t<dimension_of<Element> == 3>> {

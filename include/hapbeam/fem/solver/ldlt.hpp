@@ -16,7 +16,12 @@
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/vectors.hpp>
 
-namespace hapbeam::detail {
+namespace hapbeam {
+
+template <typename Scalar>
+using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+
+namespace detail {
 
 /// What both chains of a system compute side by side: a number of the left one, and one of the right one.
 template <typename Scalar>
@@ -76,15 +81,6 @@ struct Columns {
     if constexpr (abreast == 1) return wide;
   }
 };
-
-}  // namespace hapbeam::detail
-
-namespace hapbeam {
-
-template <typename Scalar>
-using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
-
-namespace detail {
 
 /// Numbers of two chains side by side, one of which can be reached alone.
 template <typename S>

@@ -21,6 +21,35 @@
 
 namespace hapbeam {
 
+/// Consequence of a device's error for the loop, in ascending order of severity.
+enum class HdErrorClass : std::uint8_t {
+  none,           ///< no error
+  scheduler,      ///< a callback was not scheduled: reported to its caller, a running loop is not affected
+  warm,           ///< motors near their limit: scale the force down
+  force,          ///< a force or a speed was rejected: reset, and ramp the force in
+  fault,          ///< end the loop: the device's fault, the program's, or unknown
+  communication,  ///< end the loop: the line is lost
+};
+
+/// Every code has a class; an unknown code ends the loop.
+/// Real-time: no allocation, noexcept, wait-free, O(1).
+template <typename Api>
+constexpr HdErrorClass classify(unsigned code) noexcept {
+  switch (code) {
+    case Api::success: return HdErrorClass::none;
+    case Api::warm_motors: return HdErrorClass::warm;
+    case Api::exceeded_max_force:
+    case Api::exceeded_max_force_impulse:  // which the vendor's own classifier leaves out
+    case Api::exceeded_max_velocity:
+    case Api::force_error: return HdErrorClass::force;
+    case Api::comm_error:
+    case Api::comm_config_error: return HdErrorClass::communication;
+    case Api::invalid_priority:
+    case Api::scheduler_full: return HdErrorClass::scheduler;
+    default: return HdErrorClass::fault;
+  }
+}
+
 namespace detail {
 
 /// True where an expression is a pointer to a static noexcept function of that very type.
@@ -62,43 +91,6 @@ struct HdApiFunctions<Api, std::void_t<typename Api::Callback, typename Api::Err
           std::is_same_v<decltype(Api::ErrorInfo::errorCode), unsigned> &&
           std::is_same_v<decltype(Api::ErrorInfo::internalErrorCode), int> &&
           std::is_same_v<decltype(Api::ErrorInfo::hHD), unsigned>> {};
-
-}  // namespace detail
-
-/// True where Api has all functions that Hdapi<Api> calls, with the vendor's types.  A constant that it lacks is named by the compiler.
-template <typename Api>
-inline constexpr bool is_hd_api = detail::HdApiFunctions<Api>::value;
-
-/// Consequence of a device's error for the loop, in ascending order of severity.
-enum class HdErrorClass : std::uint8_t {
-  none,           ///< no error
-  scheduler,      ///< a callback was not scheduled: reported to its caller, a running loop is not affected
-  warm,           ///< motors near their limit: scale the force down
-  force,          ///< a force or a speed was rejected: reset, and ramp the force in
-  fault,          ///< end the loop: the device's fault, the program's, or unknown
-  communication,  ///< end the loop: the line is lost
-};
-
-/// Every code has a class; an unknown code ends the loop.
-/// Real-time: no allocation, noexcept, wait-free, O(1).
-template <typename Api>
-constexpr HdErrorClass classify(unsigned code) noexcept {
-  switch (code) {
-    case Api::success: return HdErrorClass::none;
-    case Api::warm_motors: return HdErrorClass::warm;
-    case Api::exceeded_max_force:
-    case Api::exceeded_max_force_impulse:  // which the vendor's own classifier leaves out
-    case Api::exceeded_max_velocity:
-    case Api::force_error: return HdErrorClass::force;
-    case Api::comm_error:
-    case Api::comm_config_error: return HdErrorClass::communication;
-    case Api::invalid_priority:
-    case Api::scheduler_full: return HdErrorClass::scheduler;
-    default: return HdErrorClass::fault;
-  }
-}
-
-namespace detail {
 
 /// What the stack of errors held for one device.
 struct HdErrors {
@@ -228,5 +220,9 @@ class HdScheduler {
 };
 
 }  // namespace detail
+
+/// True where Api has all functions that Hdapi<Api> calls, with the vendor's types.  A constant that it lacks is named by the compiler.
+template <typename Api>
+inline constexpr bool is_hd_api = detail::HdApiFunctions<Api>::value;
 
 }  // namespace hapbeam
