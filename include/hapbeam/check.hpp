@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Checks of input values, made where a value enters the library.
+// Checks of input values, made where a value enters the library, and words for values of enumerations.
 //
 // Offline: each check throws std::invalid_argument naming field, value, unit and what is allowed.
 #pragma once
 
 #include <cmath>
 #include <cstdarg>
+#include <cstddef>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -53,6 +54,13 @@ template <class Vector>
 [[gnu::cold]] const Vector& all_finite(const char* field, const Vector& values, const char* unit) {
   for (int k = 0; k < values.size(); ++k) finite(field, values[k], unit);
   return values;
+}
+
+/// The word for a value of an enumeration, which counts from 0 to Last; "unknown" for any other number.  noexcept, O(1).
+template <auto Last, std::size_t Size>
+constexpr const char* word_for(decltype(Last) value, const char* const (&words)[Size]) noexcept {
+  static_assert(Size == static_cast<std::size_t>(Last) + 1, "each value has a word");
+  return static_cast<std::size_t>(value) < Size ? words[static_cast<std::size_t>(value)] : "unknown";
 }
 
 }  // namespace hapbeam::detail

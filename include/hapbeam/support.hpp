@@ -33,14 +33,7 @@ constexpr bool fixes_w(Support s) noexcept {
 constexpr bool fixes_theta(Support s) noexcept { return s == Support::clamped || s == Support::guided; }
 
 constexpr const char* name(Support support) noexcept {
-  switch (support) {
-    case Support::free: return "free";
-    case Support::clamped: return "clamped";
-    case Support::pinned: return "pinned";
-    case Support::roller: return "roller";
-    case Support::guided: return "guided";
-  }
-  return "unknown";
+  return detail::word_for<Support::guided>(support, {"free", "clamped", "pinned", "roller", "guided"});
 }
 
 /// Stiffness against each motion of an end; infinity holds it, 0 leaves it free.  The moment of a turn by α is sin α times its

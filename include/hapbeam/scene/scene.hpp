@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <hapbeam/beam.hpp>
+#include <hapbeam/check.hpp>
 
 namespace hapbeam {
 
@@ -93,14 +94,8 @@ enum class Kinematics { linear, von_karman, corotational, round_rod, twisted_rod
 enum class Reduction { none, pod, galerkin };
 
 constexpr const char* name(Kinematics kinematics) noexcept {
-  switch (kinematics) {
-    case Kinematics::linear: return "Linear";
-    case Kinematics::von_karman: return "VonKarman";
-    case Kinematics::corotational: return "Corotational";
-    case Kinematics::round_rod: return "RoundRod";
-    case Kinematics::twisted_rod: return "TwistedRod";
-  }
-  return "unknown";
+  return detail::word_for<Kinematics::twisted_rod>(
+      kinematics, {"Linear", "VonKarman", "Corotational", "RoundRod", "TwistedRod"});
 }
 
 /// One model: build() makes it.

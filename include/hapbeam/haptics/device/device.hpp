@@ -32,6 +32,7 @@
 
 #include <Eigen/Core>
 
+#include <hapbeam/check.hpp>
 #include <hapbeam/haptics/device/device_info.hpp>
 
 namespace hapbeam {
@@ -62,17 +63,9 @@ constexpr bool is_running(DeviceStatus status) noexcept {
 }
 
 constexpr const char* name(DeviceStatus status) noexcept {
-  switch (status) {
-    case DeviceStatus::stopped: return "stopped";
-    case DeviceStatus::running: return "running";
-    case DeviceStatus::warm: return "warm";
-    case DeviceStatus::force_error: return "force_error";
-    case DeviceStatus::calibrating: return "calibrating";
-    case DeviceStatus::calibration_needed: return "calibration_needed";
-    case DeviceStatus::device_fault: return "device_fault";
-    case DeviceStatus::communication_lost: return "communication_lost";
-  }
-  return "unknown";
+  return detail::word_for<DeviceStatus::communication_lost>(
+      status, {"stopped", "running", "warm", "force_error", "calibrating", "calibration_needed",
+               "device_fault", "communication_lost"});
 }
 
 /// Input of the servo at the beginning of a tick.

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <hapbeam/centreline.hpp>
+#include <hapbeam/check.hpp>
 #include <hapbeam/contact/touch.hpp>
 #include <hapbeam/force_model.hpp>
 #include <hapbeam/haptics/servo/exchange.hpp>
@@ -34,17 +35,8 @@ enum class LoopStatus : std::uint8_t {
 };
 
 constexpr const char* name(LoopStatus status) noexcept {
-  switch (status) {
-    case LoopStatus::free: return "free";
-    case LoopStatus::touching: return "touching";
-    case LoopStatus::out_of_range: return "out_of_range";
-    case LoopStatus::engaging: return "engaging";
-    case LoopStatus::limited: return "limited";
-    case LoopStatus::continued: return "continued";
-    case LoopStatus::no_answer: return "no_answer";
-    case LoopStatus::device: return "device";
-  }
-  return "unknown";
+  return detail::word_for<LoopStatus::device>(status, {"free", "touching", "out_of_range", "engaging",
+                                                       "limited", "continued", "no_answer", "device"});
 }
 
 /// All numbers are finite for every finite state of the device.  After a reading that is no place, `position`, `hand`, `avatar` and
