@@ -69,6 +69,12 @@ class NodeView {
   }
 
  protected:
+  /// Mean of f(piece) over both pieces of node i, or of the one that there is.
+  template <class F>
+  auto mean_beside(int i, F&& f) const noexcept {
+    if (i == 0 || i == segments()) return f(i == 0 ? 0 : i - 1);
+    return decltype(f(i))((f(i - 1) + f(i)) / 2);
+  }
   const Node* nodes_;
   int size_;
 };
@@ -116,7 +122,7 @@ template <typename Scalar, int D = 2>
 class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
   static_assert(D == 2, "#include <hapbeam/rod_centreline.hpp> for centrelines in space");
   using Base = detail::NodeView<CentrelineNode<Scalar>, Scalar>;
-  using Base::nodes_;
+  using Base::nodes_, Base::mean_beside;
 
  public:
   using Base::segment_at, Base::segments;
@@ -161,26 +167,18 @@ class Centreline : public detail::NodeView<CentrelineNode<Scalar>, Scalar> {
 
   /// Curvature at node i of a centreline of finite rotation, to its left [1/m]: the mean of both pieces, as cubics about their chords.
   Scalar curvature(int i) const noexcept {
-    Scalar sum = 0, pieces = 0;
-    for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
+    return mean_beside(i, [&](int k) {
       const Node &a = nodes_[k], &b = nodes_[k + 1];
       const Scalar x = b.s + b.u - a.s - a.u, y = b.w - a.w;
       const Scalar chord = detail::angle_near(y, x, std::sqrt(x * x + y * y), -(a.theta + b.theta) / 2),
                    p = a.theta + chord, q = b.theta + chord;
-      sum += (k == i ? 4 * p + 2 * q : -2 * p - 4 * q) / (b.s - a.s);
-      ++pieces;
-    }
-    return sum / pieces;
+      return Scalar((k == i ? 4 * p + 2 * q : -2 * p - 4 * q) / (b.s - a.s));
+    });
   }
 
   /// |dr/ds| at node i of a centreline of finite rotation: the mean of both pieces.
   Scalar stretch(int i) const noexcept {
-    Scalar sum = 0, pieces = 0;
-    for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
-      sum += stretch(k, k + 1, direction(k), direction(k + 1));
-      ++pieces;
-    }
-    return sum / pieces;
+    return mean_beside(i, [&](int k) { return stretch(k, k + 1, direction(k), direction(k + 1)); });
   }
   /// The same with an error of second order: the mean of each piece is extrapolated by that of the next one on either side.
   Scalar extrapolated_stretch(int i) const noexcept {

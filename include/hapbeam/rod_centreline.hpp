@@ -48,7 +48,7 @@ struct RodPoint {
 template <typename Scalar>
 class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
   using Base = detail::NodeView<RodNode<Scalar>, Scalar>;
-  using Base::nodes_;
+  using Base::nodes_, Base::mean_beside;
 
  public:
   using Base::Base, Base::segment_at, Base::segments;
@@ -93,19 +93,17 @@ class Centreline<Scalar, 3> : public detail::NodeView<RodNode<Scalar>, Scalar> {
 
   /// Curvature at node i, across its tangent and toward the centre of curvature [1/m]: the mean of both pieces.
   VectorOf<Scalar, 3> curvature(int i) const noexcept {
-    VectorOf<Scalar, 3> sum{0, 0, 0};
-    int pieces = 0;
-    for (int k = i > 0 ? i - 1 : 0; k <= i && k < segments(); ++k) {
+    using Vector = VectorOf<Scalar, 3>;
+    const Vector mean = mean_beside(i, [&](int k) {
       const Node &a = nodes_[k], &b = nodes_[k + 1];
       const Scalar l = b.s - a.s;
-      const VectorOf<Scalar, 3> chord = (6 / l) * (b.r - a.r);
-      if (k == i) sum += (chord - 4 * a.tangent - 2 * b.tangent) / l;
-      else sum += (2 * a.tangent + 4 * b.tangent - chord) / l;
-      ++pieces;
-    }
-    const VectorOf<Scalar, 3>& t = nodes_[i].tangent;
+      const Vector chord = (6 / l) * (b.r - a.r);
+      return Vector((k == i ? chord - 4 * a.tangent - 2 * b.tangent : 2 * a.tangent + 4 * b.tangent - chord) /
+                    l);
+    });
+    const Vector& t = nodes_[i].tangent;
     const Scalar squared = t.squaredNorm();
-    return (sum - t * (t.dot(sum) / squared)) / (static_cast<Scalar>(pieces) * squared);
+    return (mean - t * (t.dot(mean) / squared)) / squared;
   }
 
   /// |dr/ds| at node i.
