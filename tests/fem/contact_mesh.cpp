@@ -3,7 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
-#include <hapbeam/fem/laid_mesh.hpp>
+#include <hapbeam/fem/mesh.hpp>
 
 using namespace hapbeam;
 using namespace hapbeam::testing;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/fem/laid_mesh.hpp>
+#include <hapbeam/fem/mesh.hpp>
 
 namespace hapbeam::testing {
 

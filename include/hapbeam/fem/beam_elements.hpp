@@ -32,8 +32,7 @@ class BeamElements {
   using Pieces = detail::BeamPieces<Element, Scalar>;
   /// Whether the tensions of the elements are unknowns, which move with the nodes.
   static constexpr bool has_tensions = has_own_tension<Element>;
-  static constexpr int own_unknowns = 1;
-  static constexpr bool has_inners = true;  // a touched element has one whatever it is made of
+  static constexpr int own_unknowns = 1;  // a touched element has one whatever it is made of
   static_assert(
       is_element<Element, Scalar>,
       "an Element needs static noexcept energy(p, d), residual(p, d, r), tangent(p, d, r, K) and name(): "

@@ -20,7 +20,7 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/fem/laid_mesh.hpp>
+#include <hapbeam/fem/mesh.hpp>
 
 namespace hapbeam {
 

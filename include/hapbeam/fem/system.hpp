@@ -18,7 +18,7 @@
 
 #include <hapbeam/element/tensioned_curve.hpp>
 #include <hapbeam/fem/contact/contact_rows.hpp>
-#include <hapbeam/fem/contact/drawn_mesh.hpp>
+#include <hapbeam/fem/mesh.hpp>
 #include <hapbeam/fem/solver/block_tridiagonal.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/internal_forces.hpp>
@@ -112,7 +112,7 @@ class ChainSystem {
   /// @param state  out, the present one
   void keep(State& state) const noexcept {
     state.nodes.set(parts().nodes());
-    each_inner([&](int e) { state.inner[e] = parts().inners()[e]; });
+    state.inner.set(parts().inners());
   }
   /// Sets the whole state, without a contact.
   void set_state(const State& state) noexcept { go_back(state, 0); }
@@ -415,11 +415,11 @@ class ChainSystem {
   typename Parts::Inners& inners() noexcept { return chain_.parts().inners(); }
   void set(const State& state) noexcept {
     nodes().set(state.nodes);
-    each_inner([&](int e) { inners()[e] = state.inner[e]; });
+    inners().set(state.inner);
   }
   template <class F>
   void each_inner(F&& f) const noexcept {
-    for (int e = 0; Parts::has_inners && e < Parts::own_unknowns * elements(); ++e) f(e);
+    for (int e = 0; e < Parts::own_unknowns * elements(); ++e) f(e);
   }
   void look_in(int e) noexcept {
     rows_.look(parts(), e, [&]([[maybe_unused]] Scalar tension) {

@@ -19,7 +19,7 @@
 
 #include <hapbeam/beam.hpp>
 #include <hapbeam/centreline.hpp>
-#include <hapbeam/fem/laid_mesh.hpp>
+#include <hapbeam/fem/mesh.hpp>
 #include <hapbeam/fem/solver/newton_raphson.hpp>
 #include <hapbeam/fem/solver/per_node.hpp>
 #include <hapbeam/fem/taut_piece.hpp>

@@ -34,7 +34,7 @@ class RodElements {
   static constexpr int own_unknowns = unknowns == 7 ? 2 : 1;
   using Inners = detail::PerNode<Scalar, detail::times(Elements, own_unknowns),
                                  detail::times(MaxElements, own_unknowns)>;
-  static constexpr bool has_inners = true, has_tensions = false;
+  static constexpr bool has_tensions = false;
   using Inner = typename Element::template Inner<Scalar>;
   using Residual = Eigen::Matrix<Scalar, 2 * unknowns, 1>;
   using Tangent = Eigen::Matrix<Scalar, 2 * unknowns, 2 * unknowns>;

@@ -44,7 +44,6 @@ constexpr int row_groups(int elements, int size) noexcept {
 template <typename Scalar, int Elements = Eigen::Dynamic, int MaxElements = Elements, int Block = 3>
 class BlockTridiagonal {
   using Lanes = detail::Lanes<Scalar>;
-  using Number = detail::TwoNumbers<Scalar>;
   /// As many rows lie side by side as elements are computed.
   static constexpr int abreast = detail::pack_size<Scalar> / 2;
   using Rows = detail::ChainRows<Scalar, Block, abreast>;
