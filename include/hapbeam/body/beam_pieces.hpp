@@ -36,13 +36,13 @@ class BeamProfile {
 
   /// EA [N] and EI [N·m²] at s [m].
   std::pair<Scalar, Scalar> at(Scalar s) const noexcept {
-    const RodStiffness k = profile_.at(static_cast<double>(s));
+    const RodStiffness k = profile_.at(s);
     return {static_cast<Scalar>(k.axial), static_cast<Scalar>(k.bending1)};
   }
 
   /// Gives the element from s [m] on its stiffness.   @param length [m]   @param p  overwritten
   void apply(Scalar s, Scalar length, ElementProperties<Scalar>& p) const noexcept {
-    const double from = static_cast<double>(s), l = static_cast<double>(length);
+    const double from = s, l = length;
     double stretching = 0, f11 = 0, f12 = 0, f22 = 0, begin = from;
     for (std::size_t k = 0; k < ends_.size(); ++k) {
       const double end = k + 1 < ends_.size() ? (std::min)(ends_[k], from + l) : from + l;

@@ -41,7 +41,7 @@ class RodProfile {
 
   /// Stiffness of the section at s [m].
   RodStiffness at(Scalar s) const noexcept {
-    const double x = static_cast<double>(s);
+    const double x = s;
     const Values k = parts_[detail::part_with(parts_, x)].at(x);
     return {k[0], k[1], k[2], k[3]};
   }
@@ -49,7 +49,7 @@ class RodProfile {
   /// Gives an element its stiffnesses.   @param from,to  arc positions of its ends [m]
   void apply(Scalar from, Scalar to, RodProperties<Scalar>& p) const noexcept {
     const detail::GaussRule& rule = detail::gauss_rule(p.number);
-    const double a = static_cast<double>(from), l = static_cast<double>(to) - a;
+    const double a = from, l = to - a;
     const std::size_t first = detail::part_with(parts_, a),
                       last = detail::part_with(parts_, a + l * (1 - 1e-12));
     double begin = a, stretching = 0, twisting = 0;  // compliances

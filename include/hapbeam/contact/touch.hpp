@@ -60,8 +60,7 @@ class Touch {
   /// friction one that the model offers
   Touch(Model& model, Scalar avatar_radius, const Friction& friction = {})
       : model_(model), avatar_radius_(avatar_radius), volumes_(model.shape().segments()) {
-    detail::check_radius("avatar_radius", static_cast<double>(avatar_radius),
-                         static_cast<double>(model.shape().length()));
+    detail::check_radius("avatar_radius", avatar_radius, model.shape().length());
     friction.check();
     if (!takes_push<Model> && !friction.none())
       detail::reject("friction", friction.sticking, "",

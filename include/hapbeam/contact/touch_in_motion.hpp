@@ -27,8 +27,7 @@ class Touch<Model, std::enable_if_t<has_mass<Model>>> {
   /// Allocates.   @throws std::invalid_argument unless avatar_radius is 0 to a thousand lengths of the beam, and the friction makes sense
   Touch(Model& model, Scalar avatar_radius, const Friction& friction = {})
       : model_(model), avatar_radius_(avatar_radius), volumes_(model.shape().segments()) {
-    detail::check_radius("avatar_radius", static_cast<double>(avatar_radius),
-                         static_cast<double>(model.shape().length()));
+    detail::check_radius("avatar_radius", avatar_radius, model.shape().length());
     friction.check();
     friction_.take(friction);
     reset();

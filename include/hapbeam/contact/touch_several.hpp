@@ -155,7 +155,7 @@ class TouchSeveral {
   Place* begin() noexcept { return places_.data(); }
   Place* end() noexcept { return places_.data() + size_; }
   static std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-  double length() const noexcept { return static_cast<double>(model_.shape().length()); }
+  double length() const noexcept { return model_.shape().length(); }
   Place& add(int body) {
     if (size_ == most)
       detail::reject("avatars and props", size_ + 1.0, "places",

@@ -182,8 +182,8 @@ class Touch<Hand<Model>> {
   /// @param hand  kept by reference   @param avatar_radius [m]   @throws std::invalid_argument as TouchSeveral
   Touch(Hand<Model>& hand, Scalar avatar_radius, const Friction& friction = {})
       : hands_(hand.hands_), index_(hand.index_) {
-    const RoundAvatar avatar(static_cast<double>(avatar_radius), 1, friction);
-    avatar.check(static_cast<double>(hand.shape().length()));
+    const RoundAvatar avatar(avatar_radius, 1, friction);
+    avatar.check(hand.shape().length());
     hands_.place(index_).take(avatar);
     reset();
   }

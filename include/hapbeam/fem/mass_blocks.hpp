@@ -30,7 +30,7 @@ class MassBlocks {
   MassBlocks(const Body& beam, int elements, At&& at)
       : masses_(elements), spins_(elements), blocks_(elements), ghost_(elements) {
     for (int e = 0; e < elements; ++e) {
-      const double from = static_cast<double>(at(e)), l = static_cast<double>(at(e + 1)) - from;
+      const double from = at(e), l = at(e + 1) - from;
       Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
       // Exact where the mass is even or tapers linearly.
       constexpr std::array<double, 4> x{0.0694318442029737124, 0.330009478207571868, 0.669990521792428132,

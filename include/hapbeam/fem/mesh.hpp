@@ -170,7 +170,7 @@ void lay_mesh(const Body& body, const Forces& forces, int elements,
     return set(elements, length);
   }
   std::vector<double> places =
-      detail::where_it_changes(body, forces, static_cast<double>(detail::shortest_element<Scalar>(length)));
+      detail::where_it_changes(body, forces, detail::shortest_element<Scalar>(length));
   const auto size = static_cast<std::size_t>(elements);
   while (places.size() > size + 1) {
     std::size_t least = 1;

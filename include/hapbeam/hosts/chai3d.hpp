@@ -34,7 +34,7 @@ class Chai3dBeam : public chai3d::cGenericObject {
   Chai3dBeam(Model& model, double avatar_radius)
       : touch_(model, avatar_radius, x_toward_user({0, 0})),
         radius_(avatar_radius),
-        thickness_(static_cast<double>(model.thickness())) {}
+        thickness_(model.thickness()) {}
 
   std::string getClassName() override { return "hapbeam::Chai3dBeam"; }
 
@@ -74,8 +74,7 @@ class Chai3dBeam : public chai3d::cGenericObject {
     for (int k = 0; k <= drawn_pieces; ++k) {
       const auto s = shape.length() * static_cast<typename Model::Scalar>(k) / drawn_pieces;
       const auto moved = shape.at(s);
-      const double theta = static_cast<double>(moved.theta), y = static_cast<double>(s + moved.u),
-                   z = static_cast<double>(moved.w);
+      const double theta = moved.theta, y = s + moved.u, z = moved.w;
       for (const double half : {thickness_ / 2, -thickness_ / 2})
         glVertex3d(0, y + half * std::sin(theta), z + half * std::cos(theta));
     }

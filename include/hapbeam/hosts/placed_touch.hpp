@@ -122,11 +122,11 @@ class PlacedTouch {
     r.status = status();
     r.model = felt_.status;
     r.force = felt.force, r.torque = felt.torque;
-    r.press = {static_cast<double>(felt_.press.s), static_cast<double>(felt_.press.d)};
+    r.press = {felt_.press.s, felt_.press.d};
     r.pressing = felt_.pressing;
     r.sliding = felt_.sliding;
     r.friction = detail::in_scene(felt_.friction.template cast<double>().eval());
-    r.dissipated = static_cast<double>(felt_.dissipated);
+    r.dissipated = felt_.dissipated;
     ++r.ticks;
     r.contact_ticks += r.pressing;
     r.failed_ticks += r.status == LoopStatus::no_answer;

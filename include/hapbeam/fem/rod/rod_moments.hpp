@@ -41,7 +41,7 @@ class RodMoments {
       int node = 0;
       while (node + 1 < nodes.size() && static_cast<double>(nodes[node].s) < load.s - 1e-6 * rod.length())
         ++node;
-      if (std::abs(static_cast<double>(nodes[node].s) - load.s) > 1e-6 * rod.length())
+      if (std::abs(nodes[node].s - load.s) > 1e-6 * rod.length())
         reject("elements", nodes.size() - 1, "", "enough for a node at each moment");
       Moment moment{node, natural.at(nodes[node].s)};
       const Vector3& t = moment.natural.tangent;

@@ -256,11 +256,11 @@ void Servo<Model, Coupling>::keep(const DeviceState& state, const Coupled& coupl
   r.model = coupled.touch.status;
   r.time = state.time;
   r.force = guarded.force, r.torque = guarded.torque;
-  r.press = {static_cast<double>(coupled.touch.press.s), static_cast<double>(coupled.touch.press.d)};
+  r.press = {coupled.touch.press.s, coupled.touch.press.d};
   r.pressing = pressing;
   r.sliding = coupled.touch.sliding;
   r.friction = detail::in_scene(coupled.touch.friction.template cast<double>().eval());
-  r.dissipated = static_cast<double>(coupled.touch.dissipated);
+  r.dissipated = coupled.touch.dissipated;
   r.heat = guard_.heat();
   ++r.ticks;
   r.contact_ticks += pressing;

@@ -44,7 +44,7 @@ class Sound {
       : model_(model), options_(checked(options, model)), samples_(room(options)) {
     for (int k = 0; k < points; ++k) at_[k] = (k - points) / options_.rate;
     model_.listen(this, [](void* who, const Model& m, Scalar part) noexcept {
-      static_cast<Sound*>(who)->hear(m, static_cast<double>(part));
+      static_cast<Sound*>(who)->hear(m, part);
     });
   }
   ~Sound() { model_.listen(nullptr, nullptr); }
@@ -72,7 +72,7 @@ class Sound {
   static constexpr int points = 4;
 
   static const SoundOptions& checked(const SoundOptions& o, const Model& model) {
-    const double length = static_cast<double>(model.shape().length());
+    const double length = model.shape().length();
     if (!(o.place >= 0 && o.place <= length)) detail::reject("place", o.place, "m", "on the beam");
     if (!(o.rate >= 1 && o.rate <= 1e6)) detail::reject("rate", o.rate, "Hz", "1 to 1e6");
     if (!(o.room * o.rate >= 1 && o.room <= 3600)) detail::reject("room", o.room, "s", "a sample to 3600 s");
@@ -84,10 +84,10 @@ class Sound {
 
   double value(const Model& model) const noexcept {
     if (options_.source == SoundSource::velocity)
-      return static_cast<double>(model.velocity(static_cast<Scalar>(options_.place)).y());
+      return model.velocity(static_cast<Scalar>(options_.place)).y();
     const auto held = model.reaction(options_.source == SoundSource::left_support ? 0 : 1);
-    if constexpr (dimension_of<Model> == 3) return -static_cast<double>(held.force.y());
-    else return -static_cast<double>(held.y());
+    if constexpr (dimension_of<Model> == 3) return -held.force.y();
+    else return -held.y();
   }
   /// Times are counted from the second of the last values.
   void hear(const Model& model, double part) noexcept {

@@ -30,7 +30,7 @@ namespace detail {
 // Vectors of a beam and of the scene: a beam that bends in a plane lies in the scene's x and y.
 template <typename Scalar, int D>
 Eigen::Vector3d in_scene(const Eigen::Matrix<Scalar, D, 1>& v) noexcept {
-  return vector_of<double, 3>([&v](int k) { return k < D ? static_cast<double>(v[k % D]) : 0; });
+  return vector_of<double, 3>([&v](int k) { return k < D ? v[k % D] : 0; });
 }
 
 /// What a beam sees of it: in its plane, or all.
@@ -165,7 +165,7 @@ class LastResponse {
     } else if (!is_answer(touch.status)) {
       forget();
     } else if (touch.pressing && force.squaredNorm() > 0) {
-      tangent_.learn(place, force, static_cast<double>(touch.contact.depth));
+      tangent_.learn(place, force, touch.contact.depth);
       continued_ = 0, missed_ = false;
     } else if (tangent_.known()) {
       continued_ = 0;

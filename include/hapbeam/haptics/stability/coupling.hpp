@@ -220,8 +220,7 @@ class VirtualCoupling {
                               static_cast<Scalar>(now_.stiffness), static_cast<Scalar>(now_.damping));
     result.avatar = hand + touch.off().template cast<double>();
     result.force = result.touch.force.template cast<double>();
-    result.energy = static_cast<double>(touch.stored()) +
-                    now_.stiffness * (result.avatar - hand).squaredNorm() / 2 +
+    result.energy = touch.stored() + now_.stiffness * (result.avatar - hand).squaredNorm() / 2 +
                     result.touch.friction.template cast<double>().squaredNorm() / (2 * now_.stiffness);
     return result;
   }

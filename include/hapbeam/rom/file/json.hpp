@@ -95,7 +95,7 @@ class JsonWriter {
   template <typename Scalar, typename... Limits>
   void real(const char* name, const char* unit, const Scalar& value, Limits...) {
     add_unit(name, unit);
-    add(name, finite(name, unit, static_cast<double>(value)));
+    add(name, finite(name, unit, value));
   }
   template <typename Scalar>
   void table(const char* name, const char* unit, const std::vector<Scalar>& values) {
@@ -103,8 +103,7 @@ class JsonWriter {
     json_t* const array = json_array();
     add(name, array);
     for (const Scalar value : values)
-      if (json_array_append_new(array, finite(name, unit, static_cast<double>(value))))
-        fail(source_, "%s: out of memory", name);
+      if (json_array_append_new(array, finite(name, unit, value))) fail(source_, "%s: out of memory", name);
   }
   template <typename... Limits>
   void count(const char* name, json_int_t value, Limits...) {

@@ -96,7 +96,7 @@ template <typename Scalar>
   if (values.size() != wanted)
     refuse("%s = %g: must be %g numbers", field, double(values.size()), double(wanted));
   for (const Scalar value : values)
-    if (!(value > low && value <= high)) reject(field, static_cast<double>(value), "", allowed);
+    if (!(value > low && value <= high)) reject(field, value, "", allowed);
 }
 /// What has no unit, or is a length: products of a few of them are finite in float, too.
 template <typename Scalar>
@@ -117,21 +117,20 @@ template <typename Scalar>
 template <typename Scalar>
 [[gnu::cold]] void check_range(const BeamData<Scalar>& beam, Scalar s_min, Scalar s_max, Scalar depth,
                                int positions) {
-  check_length("length", static_cast<double>(beam.length));
-  positive("axial_stiffness", static_cast<double>(beam.axial_stiffness), "N");
-  positive("bending_stiffness", static_cast<double>(beam.bending_stiffness), "N·m²");
-  check_length("thickness", static_cast<double>(beam.thickness));
+  check_length("length", beam.length);
+  positive("axial_stiffness", beam.axial_stiffness, "N");
+  positive("bending_stiffness", beam.bending_stiffness, "N·m²");
+  check_length("thickness", beam.thickness);
   check_supports(beam.left, beam.right);
-  check_length("depth", static_cast<double>(depth));
+  check_length("depth", depth);
   // Rounded to another scalar an edge may move by its last digit.
   const Scalar margin = beam.length / 1000 - 4 * std::numeric_limits<Scalar>::epsilon() * beam.length;
   const Scalar low = fixes_w(beam.left) ? margin : Scalar(0);
   const Scalar high = beam.length - (fixes_w(beam.right) ? margin : Scalar(0));
   if (!(s_min >= low && s_min <= high))
-    reject("s_min", static_cast<double>(s_min), "m",
-           "on the beam, a thousandth away from an end that is held");
+    reject("s_min", s_min, "m", "on the beam, a thousandth away from an end that is held");
   if (!(s_max >= s_min && s_max <= high))
-    reject("s_max", static_cast<double>(s_max), "m", "s_min to the end, a thousandth away where it is held");
+    reject("s_max", s_max, "m", "s_min to the end, a thousandth away where it is held");
   if ((s_min == s_max) != (positions == 1))
     reject("positions", positions, "", "1 where s_min = s_max, 2 or more elsewhere");
 }
@@ -173,10 +172,10 @@ template <typename Scalar>
   const std::size_t positions = check_count("positions", data.positions, 1, 64),
                     depths = check_count("depths", data.depths, 2, 64);
   check_range(data.beam, data.s_min, data.s_max, data.depth, data.positions);
-  finite("y_low", static_cast<double>(data.y_low), "");
-  finite("y_high", static_cast<double>(data.y_high), "");
+  finite("y_low", data.y_low, "");
+  finite("y_high", data.y_high, "");
   if (!(data.y_low < data.y_high) || (data.symmetric && data.y_low != 0))
-    reject("y_low", static_cast<double>(data.y_low), "", "below y_high, 0 where symmetric");
+    reject("y_low", data.y_low, "", "below y_high, 0 where symmetric");
   check_table("potential", data.potential, positions * depths, Scalar(0),
               (std::numeric_limits<Scalar>::max)(), "positive and finite in every entry");
   check_table("rest", data.rest, positions);
@@ -184,9 +183,9 @@ template <typename Scalar>
   const DepthCoordinate<Scalar> y(data.beam, data.symmetric);
   const Scalar rounding = std::sqrt(std::numeric_limits<Scalar>::epsilon()) * (data.y_high - data.y_low);
   for (const Scalar rest : data.rest) {
-    if (data.symmetric && rest != 0) reject("rest", static_cast<double>(rest), "", "0 where symmetric");
+    if (data.symmetric && rest != 0) reject("rest", rest, "", "0 where symmetric");
     if (!(y(data.depth - rest) <= data.y_high + rounding && y(-data.depth - rest) >= data.y_low - rounding))
-      reject("depth", static_cast<double>(data.depth), "m", "within the depths of the grid, y_low to y_high");
+      reject("depth", data.depth, "m", "within the depths of the grid, y_low to y_high");
   }
   check_shape(data.shape, positions * depths);
   return data;
@@ -199,7 +198,7 @@ template <typename Scalar>
                     tensions = check_count("tensions", data.tensions, 1, 64);
   check_range(data.beam, data.s_min, data.s_max, data.depth, data.positions);
   if (!(data.tension >= 0 && std::isfinite(data.tension)) || (data.tension == 0) != (data.tensions == 1))
-    reject("tension", static_cast<double>(data.tension), "N", "positive and finite, 0 where tensions = 1");
+    reject("tension", data.tension, "N", "positive and finite, 0 where tensions = 1");
   check_table("log_stiffness", data.log_stiffness, positions * tensions);
   check_shape(data.shape, positions * tensions);
   return data;

@@ -81,8 +81,8 @@ ErrorReport report_errors(const Fast& fast, const Full& full, const std::vector<
                           const ValidationOptions& options = {},
                           const std::string& reference = "finite elements") {
   const auto range = fast.range();
-  const double s_min = static_cast<double>(range.s_min), s_max = static_cast<double>(range.s_max);
-  const double depth = static_cast<double>(range.depth);
+  const double s_min = range.s_min, s_max = range.s_max;
+  const double depth = range.depth;
   detail::PressComparison<Fast, Full> comparison(fast, full, range);
   std::vector<PressError> starts = sample;
   detail::add_shallow_presses(comparison, starts);

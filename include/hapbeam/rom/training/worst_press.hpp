@@ -39,9 +39,9 @@ class PressComparison {
       : fast_(fast),
         full_(full),
         rest_(full),
-        s_min_(close_to(static_cast<double>(range.s_min), full.range().s_min, length())),
-        s_max_(close_to(static_cast<double>(range.s_max), full.range().s_max, length())),
-        depth_(static_cast<double>(range.depth)) {
+        s_min_(close_to(range.s_min, full.range().s_min, length())),
+        s_max_(close_to(range.s_max, full.range().s_max, length())),
+        depth_(range.depth) {
     rest_.reset();
   }
 
@@ -67,9 +67,9 @@ class PressComparison {
   PressError operator()(double s, double e) {
     S at = static_cast<S>(std::clamp(off_tips(s), s_min_, s_max_));
     // In float an edge of the range may be rounded to the number beyond it.
-    if (static_cast<double>(at) > s_max_) at = std::nextafter(at, S(0));
-    if (static_cast<double>(at) < s_min_) at = std::nextafter(at, (std::numeric_limits<S>::max)());
-    const double most = deepest(static_cast<double>(at));
+    if (at > s_max_) at = std::nextafter(at, S(0));
+    if (at < s_min_) at = std::nextafter(at, (std::numeric_limits<S>::max)());
+    const double most = deepest(at);
     S d = static_cast<S>(std::clamp(rest(static_cast<double>(at)) + e, -most, most));
     if (std::abs(static_cast<double>(d)) > most) d = std::nextafter(d, S(0));
     return compare(at, d);
@@ -94,16 +94,16 @@ class PressComparison {
   }
 
   PressError compare(S s, S d) {
-    PressError error{static_cast<double>(s), static_cast<double>(std::abs(d)), 0, 0, static_cast<double>(d)};
+    PressError error{s, std::abs(d), 0, 0, d};
     full_.reset(), fast_.reset();
     const double wanted = press_for_training(full_, error.s, error.d);
-    const double found = static_cast<double>(fast_.press({s, d}).force);
+    const double found = fast_.press({s, d}).force;
     const double w = rest(error.s), e = std::abs(error.d - w), least = w == 0 ? 0 : this->least();
     error.force = std::abs(found - wanted) / (std::abs(wanted) * (e < least ? least / e : 1));
     double off = 0, size = error.depth;
     for (const CentrelineNode<S>& node : fast_.shape()) {
-      const double height = full_.shape().at(static_cast<double>(node.s)).w;
-      off = (std::max)(off, std::abs(static_cast<double>(node.w) - height));
+      const double height = full_.shape().at(node.s).w;
+      off = (std::max)(off, std::abs(node.w - height));
       size = (std::max)(size, std::abs(height));
     }
     error.shape = off / size;
