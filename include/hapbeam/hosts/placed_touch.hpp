@@ -120,16 +120,7 @@ class PlacedTouch {
   void keep(const Wrench& felt) noexcept {
     ServoRecord& r = record_;
     r.status = status();
-    r.model = felt_.status;
-    r.force = felt.force, r.torque = felt.torque;
-    r.press = {felt_.press.s, felt_.press.d};
-    r.pressing = felt_.pressing;
-    r.sliding = felt_.sliding;
-    r.friction = detail::in_scene(felt_.friction.template cast<double>().eval());
-    r.dissipated = felt_.dissipated;
-    ++r.ticks;
-    r.contact_ticks += r.pressing;
-    r.failed_ticks += r.status == LoopStatus::no_answer;
+    r.keep(felt_, felt, felt_.pressing, r.status == LoopStatus::no_answer);
     pictures_.publish(r, true);
   }
 
