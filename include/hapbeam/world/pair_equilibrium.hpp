@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <hapbeam/world/approach.hpp>
@@ -111,9 +112,11 @@ class PairEquilibrium {
     return failure_ = Status::iteration_limit, Outcome::lost;
   }
   /// Down to the next stable equilibrium, as in a viscous fluid:  (K + μM) Δ = -r,  with the pairs that touch on the way, which slide without friction.
+  /// A step may raise the potential by a tenth of what bends all by 1 rad: the second order of a turn, which the next one takes back.
   /// @param from, to  of the path, 0 to 1, on which ends and bodies are led meanwhile
   Outcome fall(double from, double to) noexcept {
-    constexpr double first_shift = 100, least_shift = 1e-3, largest_shift = 1e12, farthest = 1, enough = 1e-3;
+    constexpr double first_shift = 100, least_shift = 1e-3, largest_shift = 1e12, farthest = 1, enough = 1e-3,
+                     any = std::numeric_limits<double>::infinity();
     system_.let_go();
     system_.save();
     if (on_ridge_)
@@ -121,8 +124,8 @@ class PairEquilibrium {
         if (body.moves && (body.sides.any() || body.negative_pivots() > 0))
           body.chain().nudge(body.length() / 1000, -1, 1);
     on_ridge_ = false;
-    double bad = 0;  // a shift with which a step went too far
-    double led = to - from;
+    double bad = 0;                         // a shift with which a step went too far
+    double led = to - from, highest = any;  // that the potential may be where nothing is led [J]
     for (double shift = first_shift; left() > 0;) {
       const double next = (std::min)(from + led, to);
       system_.aim(next);
@@ -133,10 +136,15 @@ class PairEquilibrium {
         const bool near_by = shift == 0 && next >= to && system_.increment() <= enough * system_.unit();
         system_.advance();
         const Look look = look_around(system_);
-        if (look.close && look.least >= closest) {
+        const double potential = system_.potential();
+        if (look.close && look.least >= closest && (next > from || potential <= highest)) {
+          const int pairs = system_.pairs();
           while (release(pulling()) || leave_end()) continue;
           if (look.deepest < -nothing && !meet(look)) return Outcome::full;
           system_.save();
+          highest = look.deepest < -nothing || system_.pairs() != pairs
+                        ? any
+                        : (std::min)(highest, potential + system_.unit() * system_.unit() / 10);
           from = next, led *= 4;
           if (near_by && settle() == Outcome::settled) return Outcome::settled;
           if (near_by) system_.restore(), shift = first_shift;

@@ -116,6 +116,12 @@ class PairSystem : public WorldPairs<Element> {
   int negative_pivots() const noexcept { return negative_; }
   /// Whether friction acts.
   bool rough() const noexcept { return rough_; }
+  /// V - f · x of what moves, as it lies [J].
+  double potential() const noexcept {
+    double sum = 0;
+    each([&](const Body& body) { sum += body.system().total_potential(); });
+    return sum;
+  }
   double turn() const noexcept {
     double largest = 0;
     each([&](const Body& body) { largest = (std::max)(largest, body.turn()); });
