@@ -279,3 +279,61 @@ TEST_CASE(
   CHECK_THROWS_WITH(GripCoupling({-1, 0}, {1, 0}, 1e-3), ContainsSubstring("grip stiffness = -1 N/m"));
   CHECK_THROWS_WITH(GripCoupling({1, 0}, {1, -1}, 1e-3), ContainsSubstring("grip turning damping = -1"));
 }
+
+TEST_CASE("an orientation that is no rotation is no reading, and the hand goes on after it", "[rod][grip]") {
+  const GripCoupling coupling = GripCoupling::for_device(phantom());
+  Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
+  mirror(2, 2) = -1;
+  for (const Eigen::Matrix3d& by :
+       {mirror, Eigen::Matrix3d(-Eigen::Matrix3d::Identity()),
+        Eigen::Matrix3d(1.5 * Eigen::Matrix3d::Identity()), Eigen::Matrix3d(Eigen::Matrix3d::Zero())}) {
+    Model model(away(0.3, 0.003, coupling.support()), 8);
+    Grip<Model> grip(model, RodSide::left);
+    Servo<Grip<Model>> servo(grip, phantom());
+    Wrench before, felt;
+    for (int tick = 0; tick < 1000; ++tick) {
+      OrientedState state = state_at(tick, {0, 0.002 * std::min(1.0, tick / 300.0), 0},
+                                     {0, 0, 0.2 * std::min(1.0, tick / 300.0)});
+      if (tick == 600) before = felt, state.orientation = by * state.orientation;
+      felt = servo.tick(state);
+      CAPTURE(tick, by);
+      if (tick == 600) {
+        REQUIRE(servo.record().model == Status::invalid_request);
+        REQUIRE((felt.force.isZero(0) && felt.torque.isZero(0)));
+      } else {
+        REQUIRE(servo.record().model == Status::ok);
+      }
+    }
+    CHECK(before.force.norm() > 0.02);
+    CHECK((felt.force - before.force).norm() <= 1e-3 * before.force.norm());
+    CHECK((felt.torque - before.torque).norm() <= 1e-3 * before.torque.norm());
+  }
+}
+
+TEST_CASE("a hand that has leapt to where no answer is found takes the end anew", "[rod][grip]") {
+  const GripCoupling coupling = GripCoupling::for_device(phantom());
+  Model model(away(0.3, 0.006, coupling.support()), 8);
+  Grip<Model> grip(model, RodSide::left);
+  Servo<Grip<Model>> servo(grip, phantom());
+  // Half a turn across the rod, from one tick to the next.
+  Eigen::Matrix3d half = -Eigen::Matrix3d::Identity();
+  half(0, 0) = 1;
+  long lost = 0, late = 0;
+  Wrench last;
+  for (int tick = 0; tick < 1200; ++tick) {
+    OrientedState state = state_at(tick, {0, 0, 0}, {0, 0, 0});
+    if (tick >= 300) state.orientation = half;
+    // And leads it on.
+    state.position.y() = 1e-5 * std::max(0, tick - 700);
+    const Wrench felt = servo.tick(state);
+    const bool none = servo.record().status == LoopStatus::no_answer;
+    lost += none, late += none && tick > 600;
+    const double most = phantom().peak_force / 200;
+    if (servo.record().status == LoopStatus::engaging) CHECK(felt.force.norm() - last.force.norm() <= most);
+    last = felt;
+  }
+  CHECK(lost >= 1);
+  CHECK(late == 0);
+  CHECK(servo.record().status == LoopStatus::touching);
+  CHECK(last.force.y() < -0.01);
+}

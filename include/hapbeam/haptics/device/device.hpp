@@ -141,8 +141,11 @@ inline double skew_of(const Eigen::Matrix3d& R) noexcept {
     }
   return std::sqrt(squared);
 }
-/// Whether a matrix is a rotation but for its last digits.
-inline bool is_rotation(const Eigen::Matrix3d& R) noexcept { return skew_of(R) <= 1e-2; }
+/// Whether a matrix is a rotation but for its last digits, and not a mirror.
+inline bool is_rotation(const Eigen::Matrix3d& R) noexcept {
+  const auto part = [&R](int i, int j, int k) { return R(0, i) * (R(1, j) * R(2, k) - R(1, k) * R(2, j)); };
+  return skew_of(R) <= 1e-2 && part(0, 1, 2) + part(1, 2, 0) + part(2, 0, 1) > 0;
+}
 
 /// Axis times angle of a rotation [rad].   @param R  its entries, R(i, j)
 template <class Rotation>

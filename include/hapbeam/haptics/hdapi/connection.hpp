@@ -154,7 +154,6 @@ class HdConnection {
     Eigen::Vector3d x = R.col(0) - z * z.dot(R.col(0));
     x /= x.norm();
     const Eigen::Vector3d y(z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]);
-    if (!(y.dot(R.col(1)) > 0)) return false;
     R.col(0) = x, R.col(1) = y, R.col(2) = z;
     return true;
   }

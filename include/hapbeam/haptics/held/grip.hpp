@@ -16,7 +16,7 @@
 //   F = K g + B (g - g0)/T = K' (x - h'),   K' = K + B/T,   h' = h + β g0,   β = 1 - K/K'
 //
 // K' are the springs' stiffnesses, h' is where they are placed.  Orientations go the same way by the rotation vector.  Where the end is
-// turned against the hand by more than `slip` the grip slips.
+// turned against the hand by more than `slip` the grip slips, and where no answer is found it is taken anew.
 // A rod with mass has K and B within its steps, and goes on where it is let go.
 // Real-time: no allocation, noexcept, wait-free; one hold() of the model a tick, or step().
 #pragma once
@@ -79,6 +79,8 @@ class Touch<Grip<Model>> {
   bool pressing() const noexcept { return taken_; }
   bool held() const noexcept { return grip_.held(); }
   void let_go() noexcept { taken_ = false; }
+  /// The end slips out of the hand, which takes it anew where it has come to.
+  void lose() noexcept { let_go(), aim_ = end(); }
 
   /// Where a hand has the end; the first one takes it as it is held.
   HandPose follow(const HandPose& hand) noexcept {
@@ -202,6 +204,7 @@ class GripCoupling {
     } else if (!has_mass<Model> && held.status == Status::iteration_limit && continued_ < max_continued) {
       ++continued_;
     } else {
+      touch.lose();
       reset();
     }
     result.continued = continued_ > 0;
