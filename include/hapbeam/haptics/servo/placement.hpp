@@ -20,7 +20,6 @@
 // Real-time: no allocation, noexcept, wait-free, O(1), but for what makes a Placement.
 #pragma once
 
-#include <cmath>
 
 #include <Eigen/Core>
 
@@ -46,9 +45,7 @@ class Placement {
     const double skew = detail::skew_of(rotation);
     if (!(skew <= 1e-9))
       detail::reject("placement rotation, |R R^T - 1|", skew, "", "an orthonormal matrix, at most 1e-9");
-    // The product of the first two axes is the third, or its opposite where the axes are left-handed.
-    const double third = rotation(0, 0) * rotation(1, 1) - rotation(1, 0) * rotation(0, 1);
-    if (!(std::abs(third - rotation(2, 2)) <= 1e-8))
+    if (!detail::is_rotation(rotation))
       detail::reject("placement rotation determinant", -1, "", "1: a rotation keeps axes right-handed");
     detail::all_finite("placement origin", origin, "m");
   }
