@@ -20,7 +20,6 @@
 // Real-time: no allocation, noexcept, wait-free, O(1), but for what makes a Placement.
 #pragma once
 
-
 #include <Eigen/Core>
 
 #include <hapbeam/centreline.hpp>
