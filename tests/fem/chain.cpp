@@ -195,7 +195,8 @@ TEST_CASE("a cantilever rolls up in two solves, whatever its mesh and stiffness"
       const Turning model(beam.add({1, 0, 0, 2 * pi}), elements);
       CAPTURE(elements, EA, model.rest().solves);
       CHECK(model.rest().status == Status::ok);
-      CHECK(model.rest().solves <= 3);
+      // Where it moved last it is looked at once more: whether it is stable there.
+      CHECK(model.rest().solves <= 4);
       const auto& tip = model.shape()[model.shape().segments()];
       CHECK(std::hypot(1 + tip.u, tip.w) <= 1e-6);
       CHECK(std::abs(tip.theta - 2 * pi) <= 1e-6);
