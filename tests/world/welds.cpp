@@ -188,10 +188,10 @@ TEST_CASE("the right-angled frame of Argyris goes aside as one with a true corne
     const World<TwistedRod> world({{first, 16}, {second, 16}}, {}, {{{0, 1}, {arm, 0}, JointKind::weld}});
     return world.shape(1).at(arm).r.z();
   };
-  for (const auto& [force, exact] : {std::pair(1.1, 0.02135), std::pair(1.15, 0.03773),
-                                     std::pair(1.3, 0.05573), std::pair(1.4, 0.05977)}) {
+  for (const auto& [force, expected] : {std::pair(1.1, 0.02135), std::pair(1.15, 0.03773),
+                                        std::pair(1.3, 0.05573), std::pair(1.4, 0.05977)}) {
     CAPTURE(force);
-    CHECK(relative_error(aside(force), exact) <= 1e-3);
+    CHECK(relative_error(aside(force), expected) <= 1e-3);
   }
   // It falls there from any load, and farther from a larger one.
   double last = 0;
