@@ -265,7 +265,7 @@ class PairFriction {
   std::array<Vector, 2> tangents_;  // r'
   int negative_ = 0;
   struct {
-    Vector force, shear;
+    Vector force = Vector::Zero(), shear = force;
   } last_;              // answer, and where it led
   int answers_ = 0;     // in this step
   double learned_ = 0;  // q [N/m]
